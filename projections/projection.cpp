@@ -1,180 +1,164 @@
 #include "projections/projection.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "projections/sphere_formulas.h"
+#include "projections/projection_defaults.h"
 
 namespace domefall {
-namespace {
-
-int width(const Domemaster& d) { return d.size; }
-int width(const Equirectangular& e) { return e.columns; }
-int width(const Cubemap& c) { return kFacesInARow * c.face; }
-template <class Sized>
-int width(const Sized& p) {
-  return p.columns;
-}
-
-int height(const Domemaster& d) { return d.size; }
-int height(const Equirectangular& e) { return e.columns / 2; }
-int height(const Cubemap& c) { return 2 * c.face; }
-template <class Sized>
-int height(const Sized& p) {
-  return p.rows;
-}
-
-// Returns the row that looks along Z.  On a fisheye it lies below the middle by half of what more
-// is cut at the bottom than at the top.
-double middle_row(const Projection& p) {
-  const double middle = (rows(p) + 1) / 2.0;
-  const auto* fisheye = std::get_if<Fisheye>(&p);
-  return fisheye ? middle + (fisheye->columns - fisheye->rows) * (0.5 - fisheye->cut_back) : middle;
-}
-
-Centred centred(const Projection& p, PixelPosition pixel) {
-  return {pixel.i - (columns(p) + 1) / 2.0, pixel.j - middle_row(p)};
-}
-
-bool has_circle(const Projection& p) {
-  return std::holds_alternative<Domemaster>(p) || std::holds_alternative<Fisheye>(p);
-}
-
-CameraDirection inside_direction(const Domemaster& d, Centred at) {
-  return DomemasterView(d).direction(at.x, at.y);
-}
-template <class Other>
-CameraDirection inside_direction(const Other& p, Centred at) {
-  return direction(p, at);
-}
-
-struct Refined {
-  int by;
-  Projection operator()(Domemaster d) const { return Domemaster{d.size * by}; }
-  Projection operator()(Equirectangular e) const { return Equirectangular{e.columns * by}; }
-  Projection operator()(Cubemap c) const { return Cubemap{c.face * by}; }
-  template <class Sized>
-  Projection operator()(Sized p) const {
-    p.columns *= by;
-    p.rows *= by;
-    return p;
-  }
-};
-
-}  // namespace
-
-StereographicView::StereographicView(const Stereographic& s) : scale(half_tangent_per_pixel(s)) {}
 
 int columns(const Projection& p) {
-  return std::visit([](const auto& q) { return width(q); }, p);
+  return std::visit([](const auto& q) { return width_of(q); }, p);
 }
 
 int rows(const Projection& p) {
-  return std::visit([](const auto& q) { return height(q); }, p);
+  return std::visit([](const auto& q) { return height_of(q); }, p);
 }
 
-Projection refined(const Projection& p, int factor) { return std::visit(Refined{factor}, p); }
+Projection refined(const Projection& p, int factor) {
+  return with_sides(p, columns(p) * factor, rows(p) * factor);
+}
 
-bool has_zenith(const Projection& p) {
-  return !std::holds_alternative<Stereographic>(p) && !std::holds_alternative<Rectilinear>(p);
+bool has_free_shape(const Projection& p) {
+  return std::visit([]<class P>(const P&) { return kHasSides<P>; }, p);
+}
+
+Projection with_sides(Projection p, int columns, int rows) {
+  return std::visit(
+      [&]<class P>(P& q) -> Projection {
+        if constexpr (!kHasSides<P>)
+          return q.with_sides(columns, rows);
+        else {
+          q.columns = columns;
+          q.rows = P::kTraits.is_dome ? std::min(rows, columns) : rows;
+          return q;
+        }
+      },
+      p);
+}
+
+Projection with_width(const Projection& p, int width) {
+  const double height = static_cast<double>(width) * rows(p) / columns(p);
+  return with_sides(p, width, std::max(1, static_cast<int>(std::lround(height))));
 }
 
 std::optional<double> field_of_view(const Projection& p) {
-  if (const auto* s = std::get_if<Stereographic>(&p)) return s->fov;
-  if (const auto* r = std::get_if<Rectilinear>(&p)) return r->fov;
-  if (const auto* f = std::get_if<Fisheye>(&p)) return f->fov;
-  return std::nullopt;
+  return std::visit(
+      [](const auto& q) -> std::optional<double> {
+        if constexpr (requires { q.fov; }) return q.fov;
+        return std::nullopt;
+      },
+      p);
 }
 
 Projection with_field_of_view(Projection p, double fov) {
-  if (auto* s = std::get_if<Stereographic>(&p)) s->fov = fov;
-  if (auto* r = std::get_if<Rectilinear>(&p)) r->fov = fov;
-  if (auto* f = std::get_if<Fisheye>(&p)) f->fov = fov;
+  std::visit(
+      [fov](auto& q) {
+        if constexpr (requires { q.fov; }) q.fov = fov;
+      },
+      p);
   return p;
 }
 
+std::optional<double> cut_back(const Projection& p) {
+  return std::visit(
+      [](const auto& q) -> std::optional<double> {
+        if constexpr (requires { q.cut_back; }) return q.cut_back;
+        return std::nullopt;
+      },
+      p);
+}
+
+Projection with_cut_back(Projection p, double part) {
+  std::visit(
+      [part](auto& q) {
+        if constexpr (requires { q.cut_back; }) q.cut_back = part;
+      },
+      p);
+  return p;
+}
+
+std::vector<double> further_parameters(const Projection& p) {
+  std::vector<double> parameters;
+  std::visit([&](const auto& q) { add_parameters(q, parameters); }, p);
+  return parameters;
+}
+
+double farthest_angle(const Projection& p) {
+  if (!has_zenith(p)) return std::acos(direction_at(p, {0.5, 0.5}).v.z);
+  if (!traits_of(p).is_dome) return std::numbers::pi;
+  return field_of_view(p).value_or(traits_of(p).shown_deg * (std::numbers::pi / 180)) / 2;
+}
+
+PixelPosition origin_of(const Projection& p) {
+  return std::visit([](const auto& q) { return origin_of(q); }, p);
+}
+
 CameraDirection direction_at(const Projection& p, PixelPosition pixel) {
-  return std::visit([&](const auto& q) { return direction(q, centred(p, pixel)); }, p);
+  return std::visit([&](const auto& q) { return q.direction(centred(q, pixel)); }, p);
 }
 
 std::optional<PixelPosition> pixel_of(const Projection& p, CameraDirection n) {
-  const auto at = std::visit([&](const auto& q) { return place(q, n); }, p);
-  if (!at) return std::nullopt;
-  return PixelPosition{(columns(p) + 1) / 2.0 + at->x, middle_row(p) + at->y};
+  return std::visit(
+      [&](const auto& q) -> std::optional<PixelPosition> {
+        const std::optional<Centred> at = q.place(n);
+        const PixelPosition o = origin_of(q);
+        return at ? std::optional(PixelPosition{o.i + at->x, o.j + at->y}) : std::nullopt;
+      },
+      p);
 }
 
 bool is_inside(const Projection& p, PixelPosition pixel) {
-  if (!has_circle(p)) return true;
-  const Centred at = centred(p, pixel);
-  const double radius = columns(p) / 2.0;
-  return at.x * at.x + at.y * at.y <= radius * radius;
+  return std::visit([&](const auto& q) { return shows_at(q, centred(q, pixel)); }, p);
 }
 
 ColumnRange inside_columns(const Projection& p, int row) {
-  const int width = columns(p);
-  if (!has_circle(p)) return {0, width - 1};
-  const double y = row + 1 - middle_row(p), radius = width / 2.0;
-  const double half = std::sqrt(std::max(0.0, radius * radius - y * y));
-  ColumnRange range{std::max(0, static_cast<int>((width - 1) / 2.0 - half) - 1), 0};
-  while (range.first < width && !is_inside(p, {range.first + 1.0, row + 1.0})) ++range.first;
-  range.last = width - 1 - range.first;  // a circle is symmetric
-  return range;
-}
-
-void inside_directions(const Projection& p, int row, ColumnRange range, CameraDirection* out) {
-  std::visit(
-      [&](const auto& q) {
-        for (int i = range.first; i <= range.last; ++i)
-          *out++ = inside_direction(q, centred(p, {i + 1.0, row + 1.0}));
-      },
-      p);
-}
-
-void directions_along(const Projection& p, PixelPosition first, double step, int count,
-                      CameraDirection* out) {
-  std::visit(
-      [&](const auto& q) {
-        for (int k = 0; k < count; ++k)
-          out[k] = inside_direction(q, centred(p, {first.i + k * step, first.j}));
-      },
-      p);
+  return std::visit([row](const auto& q) { return inside_columns_of(q, row); }, p);
 }
 
 double pixel_solid_angle(const Projection& p, PixelPosition pixel) {
-  return std::visit([&](const auto& q) { return solid_angle(q, centred(p, pixel)); }, p);
+  return std::visit([&](const auto& q) { return solid_angle_of(q, centred(q, pixel)); }, p);
 }
 
 PixelMetric pixel_metric(const Projection& p, PixelPosition pixel) {
-  return std::visit([&](const auto& q) { return metric(q, centred(p, pixel)); }, p);
+  return std::visit([&](const auto& q) { return metric_of(q, centred(q, pixel)); }, p);
 }
 
-double central_pixel_angle(const Projection& p) {
-  struct Central {
-    double operator()(const Domemaster& d) const { return radians_per_pixel(d); }
-    double operator()(const Stereographic& s) const { return 2 * half_tangent_per_pixel(s); }
-    double operator()(const Rectilinear& r) const { return tangent_per_pixel(r); }
-    double operator()(const Fisheye& f) const { return radians_per_pixel(f); }
-    double operator()(const Equirectangular& e) const { return radians_per_pixel(e); }
-    double operator()(const Cubemap& c) const { return (*this)(face_projection(c)); }
-  };
-  return std::visit(Central(), p);
+double largest_pixel_angle(const Projection& p) {
+  return std::visit([](const auto& q) { return q.largest_pixel_angle(); }, p);
 }
 
 double pixel_angle(const Projection& p, PixelPosition pixel) {
-  struct Largest {
-    Centred at;
-    double operator()(const Stereographic& s) const { return scales(s, at).tangential; }
-    double operator()(const Rectilinear& r) const { return scales(r, at).tangential; }
-    double operator()(const Cubemap& c) const {
-      return Largest{on_face(c, face_at(c, at), at)}(face_projection(c));
-    }
-    double operator()(const Domemaster& d) const { return radians_per_pixel(d); }
-    double operator()(const Fisheye& f) const { return radians_per_pixel(f); }
-    double operator()(const Equirectangular& e) const { return radians_per_pixel(e); }
-  };
-  return std::visit(Largest{centred(p, pixel)}, p);
+  return std::visit([&](const auto& q) { return pixel_angle_of(q, centred(q, pixel)); }, p);
 }
 
-std::string_view projection_name(const Projection& p) { return kProjectionNames[p.index()]; }
+double scale_change_per_radian(const Projection& p, const CameraDirection& n) {
+  return std::visit([&](const auto& q) { return scale_change_of(q, n); }, p);
+}
+
+bool has_slanted_areas(const Projection& p, int row) {
+  return std::visit([row](const auto& q) { return slants_of(q, row); }, p);
+}
+
+// Far beyond the circle the projection is stretched so much that bounds in pixels would not tell.
+std::optional<CapBox> cap_box(const Projection& p, const CameraDirection& n, double angle) {
+  if (angle_to_middle(n) - angle > farthest_angle(p) + largest_pixel_angle(p)) return std::nullopt;
+  return std::visit([&](const auto& q) { return cap_box_of(q, n, angle); }, p);
+}
+
+CapSpans spans_of(const Projection& p, const CapPlace& cap, int row, const ColumnRange& inside) {
+  return std::visit([&](const auto& q) { return cap_spans_of(q, cap, row, inside); }, p);
+}
+
+std::vector<CubemapFace> cubemap_faces(const Projection& p) {
+  const auto* cube = std::get_if<Cubemap>(&p);
+  if (!cube) return {};
+  std::vector<CubemapFace> faces;
+  for (const Cubemap::Axes& f : Cubemap::axes()) {
+    const auto k = static_cast<int>(faces.size());
+    faces.push_back({k % Cubemap::kFacesInARow * cube->face,
+                     k / Cubemap::kFacesInARow * cube->face,
+                     cube->face_projection(),
+                     {f.right, f.down, f.forward}});
+  }
+  return faces;
+}
 
 }  // namespace domefall

@@ -9,83 +9,41 @@
 // (1, 1) is the centre of the top left pixel.
 #pragma once
 
-#include <Imath/ImathVec.h>
-
-#include <array>
-#include <optional>
-#include <string_view>
 #include <type_traits>
 #include <variant>
+#include <vector>
+
+#include "projections/cubemap.h"
+#include "projections/domemaster.h"
+#include "projections/equirectangular.h"
+#include "projections/fisheye.h"
+#include "projections/rectilinear.h"
+#include "projections/stereographic.h"
 
 namespace domefall {
 
-// A CameraDirection is a unit vector with components along the camera's X, Y, Z.
-struct CameraDirection {
-  Imath::V3d v;
-};
-
-struct PixelPosition {
-  double i, j;
-};
-
-// A Domemaster is an equidistant azimuthal fisheye of a half sphere in a square of `size` pixels
-// ([Riazuelo] eq. pix_i_geode, pix_j_geode).  Z is the dome's zenith (its axis), the bottom edge is
-// the audience's front, and the right edge its right hand.  It is valid outside the incircle too,
-// up to theta = pi.
-struct Domemaster {
-  static constexpr std::string_view kName = "domemaster";
-  int size;  // pixels, > 0
-};
-
-// A Stereographic image is a conformal flat image, in which the hole's silhouette stays a circle
-// ([Riazuelo] eq. pix_i, pix_j).
-struct Stereographic {
-  static constexpr std::string_view kName = "stereographic";
-  int columns, rows;  // pixels, > 0
-  double fov;         // full horizontal opening angle 2 alpha, radians, in (0, 2 pi)
-};
-
-// A Rectilinear image is the flat image of a camera without distortion, in which straight lines
-// stay straight.
-struct Rectilinear {
-  static constexpr std::string_view kName = "rectilinear";
-  int columns, rows;  // pixels, > 0
-  double fov;         // full horizontal opening angle, radians, in (0, pi)
-};
-
-// A Fisheye is an equidistant azimuthal fisheye of any opening, for domes of more or less than a
-// half sphere.  Its circle is as wide as the image.  An image lower than that is of a truncated
-// dome.
-struct Fisheye {
-  static constexpr std::string_view kName = "fisheye";
-  int columns, rows;  // pixels, > 0, rows <= columns
-  double fov;         // opening angle of the circle, radians, in (0, 2 pi]
-  double cut_back;    // the part, 0 to 1, of the missing rows that is cut at the top, the back
-};
-
-// An Equirectangular image is the whole sphere by longitude and latitude, as virtual reality has
-// it, with columns/2 rows.  The left and the right edge are one meridian, the back's.
-struct Equirectangular {
-  static constexpr std::string_view kName = "equirectangular";
-  int columns;  // pixels, > 0, even
-};
-
-// A Cubemap is the whole sphere on the faces of a cube, in two rows of three: right, left, up;
-// down, front, back.  Each is a flat image of 90 degrees, upright but for up and down, which have
-// the front at their bottom and top edge.  This is the layout c3x2 of ffmpeg's filter v360.
-struct Cubemap {
-  static constexpr std::string_view kName = "cubemap";
-  int face;  // pixels along an edge, > 0
-};
-
+// The list of all projections, in the order of their names in the row `projection` of keys.cpp.
+// What each says of itself is in projection_parts.h.
 using Projection =
-    std::variant<Domemaster, Stereographic, Rectilinear, Fisheye, Equirectangular, Cubemap>;
+    std::variant<Domemaster, Fisheye, Equirectangular, Cubemap, Stereographic, Rectilinear>;
 
-// The names of all projections, in that order.
-inline constexpr auto kProjectionNames =
+// The traits of all projections, and all projections in their usual sizes, in that order.
+inline constexpr auto kEveryProjectionTraits =
     []<class... Each>(std::type_identity<std::variant<Each...>>) {
-      return std::array{Each::kName...};
+      return std::array{Each::kTraits...};
     }(std::type_identity<Projection>());
+inline constexpr auto kUsualProjections =
+    []<class... Each>(std::type_identity<std::variant<Each...>>) {
+      return std::array{Projection(Each{})...};
+    }(std::type_identity<Projection>());
+
+inline const ProjectionTraits& traits_of(const Projection& p) {
+  return kEveryProjectionTraits[p.index()];
+}
+inline std::string_view projection_name(const Projection& p) { return traits_of(p).name; }
+
+// Says whether it is the projection for which the quick loops of domes hold.
+inline bool is_domemaster(const Projection& p) { return std::holds_alternative<Domemaster>(p); }
 
 int columns(const Projection& p);
 int rows(const Projection& p);
@@ -93,13 +51,38 @@ int rows(const Projection& p);
 // Returns the same image with `factor` times `factor` pixels for each.
 Projection refined(const Projection& p, int factor);
 
-// Says whether Z is an audience's zenith, and not the direction that a camera looks along.
-bool has_zenith(const Projection& p);
+inline bool has_zenith(const Projection& p) { return traits_of(p).has_zenith; }
+
+// Says whether an image may be of any width and height, and not of one shape only.
+bool has_free_shape(const Projection& p);
+
+// Returns the largest image of a projection within these sides in pixels, both > 0.  One of a free
+// shape has them, but that a fisheye has at most as many rows as columns.
+Projection with_sides(Projection p, int columns, int rows);
+
+// Returns the projection with an image of the same shape and as wide as that, or up to two pixels
+// less where its width must be a multiple of 2 or 3.  Such a width is at least that 2 or 3.
+Projection with_width(const Projection& p, int width);
 
 // These return the opening angle (radians), or nothing for a projection whose angle is always the
 // same, and the projection with another angle.
 std::optional<double> field_of_view(const Projection& p);
 Projection with_field_of_view(Projection p, double fov);
+
+// These do so with the part of the missing rows that is cut at the back of a truncated dome
+// (Fisheye), or nothing for a projection that has none to cut.
+std::optional<double> cut_back(const Projection& p);
+Projection with_cut_back(Projection p, double part);
+
+// Returns the numbers that define an image besides its projection's name, columns and rows.
+std::vector<double> further_parameters(const Projection& p);
+
+// Returns the largest angle from Z in an image, and of a dome that of its circle.
+double farthest_angle(const Projection& p);
+
+// Returns the position from which places are Centred: the middle of the image, or the pixel that
+// looks along Z on a truncated dome.
+PixelPosition origin_of(const Projection& p);
 
 // Returns the direction that a pixel position looks along.  It is exact to a few epsilon and
 // defined for any finite position.  On a fisheye beyond theta = pi, and beyond the edges of a
@@ -117,42 +100,45 @@ std::optional<PixelPosition> pixel_of(const Projection& p, CameraDirection n);
 // show everything.
 bool is_inside(const Projection& p, PixelPosition pixel);
 
-// A ColumnRange has the pixels of a row (from 0) whose centres are inside.  These are columns
-// first..last (from 0), and none if first > last.
-struct ColumnRange {
-  int first, last;
-};
+// Returns the columns (from 0) of the pixels of a row (from 0) whose centres are inside.
 ColumnRange inside_columns(const Projection& p, int row);
-
-// Writes direction_at for the centres of those pixels into out[last - first + 1], in a quarter of
-// the time, by power series that are cut below 1e-17.  Measured, it is within 6e-16 of
-// direction_at.
-void inside_directions(const Projection& p, int row, ColumnRange range, CameraDirection* out);
-
-// Writes direction_at for `count` positions of a row, evenly spaced from `first` on, into
-// out[count], by the same series, also outside the incircle of a Domemaster.  Measured, it is
-// within 1e-14 up to theta = 0.75 pi.
-void directions_along(const Projection& p, PixelPosition first, double step, int count,
-                      CameraDirection* out);
 
 // Returns the solid angle (sr) of the pixel centred there, which is the product of its two angular
 // scales.
 double pixel_solid_angle(const Projection& p, PixelPosition pixel);
 
-// A PixelMetric says how a projection scales at a place.  A small step of (dx, dy) pixels turns the
-// direction by the square root of xx dx^2 + 2 xy dx dy + yy dy^2, in radians.
-struct PixelMetric {
-  double xx, xy, yy;
-};
 PixelMetric pixel_metric(const Projection& p, PixelPosition pixel);
 
-// Returns the angle (radians) between neighbouring pixels in the middle of the image, or on the
-// horizon of a sphere by longitude and latitude.  No pixel covers a larger angle in any direction.
-double central_pixel_angle(const Projection& p);
+// Returns the largest angle (radians) that any pixel of the image covers in any direction.  Of those
+// here it is that between neighbouring pixels in the middle, or on the horizon of a whole sphere.
+double largest_pixel_angle(const Projection& p);
 
 // Returns the largest angle that a pixel covers in any direction.
 double pixel_angle(const Projection& p, PixelPosition pixel);
 
-std::string_view projection_name(const Projection& p);
+// Returns an upper bound, over all directions, of the relative change of the image's scale per
+// radian.  This is the logarithmic derivative of the angle that a pixel covers, or the curvature of
+// the circles of latitude.  It grows without bound towards a pole or the back of a fisheye.
+double scale_change_per_radian(const Projection& p, const CameraDirection& n);
+
+// Says whether the area of a row's pixels may vary notably within a pixel.
+bool has_slanted_areas(const Projection& p, int row);
+
+// Returns the box of the cap of this angle (radians) about n, or nothing if it lies outside the
+// circle about Z that holds the whole image.
+std::optional<CapBox> cap_box(const Projection& p, const CameraDirection& n, double angle);
+CapSpans spans_of(const Projection& p, const CapPlace& cap, int row, const ColumnRange& inside);
+
+// A CubemapFace is an image of its own without a seam.  It has its top left pixel on the cube's net,
+// counted from 0, its own projection, and the axes X, Y, Z of its camera in that of the whole net.
+struct CubemapFace {
+  int column, row;
+  Projection projection;
+  std::array<Imath::V3d, 3> axes;
+};
+
+// Returns the faces in the order of Cubemap::axes(), and none for the other projections.
+// They have no seam, or continue beyond it as one function of the pixel.
+std::vector<CubemapFace> cubemap_faces(const Projection& p);
 
 }  // namespace domefall

@@ -10,7 +10,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/chebyshev_panel.h"
+#include "trajectories/infinity.h"
+#include "trajectories/monotone_cubic.h"
 #include "trajectories/short_number.h"
 
 namespace domefall {
@@ -24,23 +27,9 @@ constexpr double kIntegrandNoise = 8 * std::numeric_limits<double>::epsilon();
 constexpr double kEndRounding =
     1e-12;  // of the path's duration, by which a proper time may miss its ends
 
-// A PathCubic goes from key to key.  It is c0 + t (c1 + t (c2 + t c3)) for t = 0 to 1.
-struct PathCubic {
-  double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
-
-  static PathCubic hermite(double from, double to, double slope_from, double slope_to) {
-    const double rise = to - from;
-    return {from, slope_from, 3 * rise - 2 * slope_from - slope_to,
-            slope_from + slope_to - 2 * rise};
-  }
-  double at(double t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
-  double slope(double t) const { return c1 + t * (2 * c2 + t * 3 * c3); }
-  double size() const { return std::abs(c0) + std::abs(c1) + std::abs(c2) + std::abs(c3); }
-};
-
 struct Piece {
   double begin, end;  // proper time
-  PathCubic r, azimuth;
+  HermiteCubic r, azimuth;
 };
 
 struct Rates {
@@ -50,23 +39,19 @@ struct Rates {
 Rates rates_of(const Piece& piece, double t) {
   const double span = piece.end - piece.begin, r = piece.r.at(t);
   const double u = piece.r.slope(t) / span, l = r * piece.azimuth.slope(t) / span;
-  return {r, u, l, u * u + (1 - 2 / r) * (1 + l * l)};
+  return {r, u, l, u * u + Schwarzschild::lapse_squared(r) * (1 + l * l)};
 }
 
-// This is the formula for geodesics (radial_celerity in geodesic.cpp), in which (1 - E^2) + l^2 is
-// (2/r)(1 + l^2) - u^2.
+// E^2 cancels in (1 - E^2) + l^2, which is (2/r)(1 + l^2) - u^2.
 double path_celerity(const Rates& p, bool outgoing) {
-  const double s = std::sqrt(2 / p.r), inward = outgoing ? p.radial : -p.radial;
-  const double energy = std::sqrt(p.energy2), squares = 1 + p.tangential * p.tangential;
-  const double w = inward >= 0 ? (2 / p.r * squares - inward * inward) / (s * energy + inward)
-                               : (s * energy - inward) / (1 - 2 / p.r);
-  return outgoing ? -w : w;
+  const double squares = 2 / p.r * (1 + p.tangential * p.tangential) - p.radial * p.radial;
+  return Schwarzschild::radial_celerity(p.r, p.radial, std::sqrt(p.energy2), squares, outgoing);
 }
 
 double null_rate(const Rates& p, bool outgoing) {
   const double energy = std::sqrt(p.energy2), inward = outgoing ? p.radial : -p.radial;
   return inward >= 0 ? (1 + p.tangential * p.tangential) / (energy + inward)
-                     : (energy - inward) / (1 - 2 / p.r);
+                     : (energy - inward) / Schwarzschild::lapse_squared(p.r);
 }
 
 // Returns, relative to null_rate, what rounding of r and its slope does to 1 - 2/r and to E.
@@ -75,15 +60,8 @@ double null_noise(const Piece& piece, const Rates& p, bool outgoing) {
                sum = std::sqrt(p.energy2) + std::abs(inward);
   const double place = kIntegrandNoise * piece.r.size() / p.r;
   const double rate = kIntegrandNoise * piece.r.size() / (piece.end - piece.begin);
-  return (inward >= 0 ? place / (sum * sum) : place / std::abs(1 - 2 / p.r)) + rate / sum;
-}
-
-// Returns the rate of a key that is neither the first nor the last.  It is 0 at an extreme, and
-// else the harmonic mean weighted towards the shorter side.
-double key_slope(double before, double left, double after, double right) {
-  if (left * right <= 0) return 0;
-  const double a = 2 * after + before, b = after + 2 * before;
-  return (a + b) / (a / left + b / right);
+  return (inward >= 0 ? place / (sum * sum) : place / std::abs(Schwarzschild::lapse_squared(p.r))) +
+         rate / sum;
 }
 
 // Returns the rate of the first or last key.  It is the parabola's slope, within what keeps the
@@ -104,7 +82,7 @@ std::vector<double> slopes(const std::vector<double>& taus, const std::vector<do
   slope[0] = end_slope(span[0], rise[0], span[1], rise[1]);
   slope[n - 1] = end_slope(span[n - 2], rise[n - 2], span[n - 3], rise[n - 3]);
   for (std::size_t k = 1; k + 1 < n; ++k)
-    slope[k] = key_slope(span[k - 1], rise[k - 1], span[k], rise[k]);
+    slope[k] = monotone_slope(span[k - 1], rise[k - 1], span[k], rise[k]);
   return slope;
 }
 
@@ -151,8 +129,8 @@ std::vector<Piece> pieces_of(const std::vector<PathKey>& keys) {
     const double span = taus[k + 1] - taus[k];
     pieces.push_back(
         {taus[k], taus[k + 1],
-         PathCubic::hermite(radii[k], radii[k + 1], radial[k] * span, radial[k + 1] * span),
-         PathCubic::hermite(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
+         HermiteCubic(radii[k], radii[k + 1], radial[k] * span, radial[k + 1] * span),
+         HermiteCubic(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
   }
   return pieces;
 }
@@ -172,7 +150,7 @@ void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing)
 }
 
 // Returns where the cubic turns, between 0 and 1, with both ends.
-std::vector<double> turns_of(const PathCubic& c) {
+std::vector<double> turns_of(const HermiteCubic& c) {
   std::vector<double> cuts{0};
   const double a = 3 * c.c3, b = c.c2, under = b * b - a * c.c1;
   if (under > 0) {
@@ -195,7 +173,7 @@ void check_piece(const Piece& piece, std::size_t key, bool outgoing) {
   for (const double t : turns_of(piece.r)) check_instant(piece, key, t, outgoing);
 }
 
-double where(const PathCubic& c, double value, double low, double high) {
+double where(const HermiteCubic& c, double value, double low, double high) {
   const auto f = [&](double t) { return c.at(t) - value; };
   if (f(low) == 0) return low;
   if (f(high) == 0) return high;
@@ -294,20 +272,35 @@ AcceleratedPath::AcceleratedPath(const std::vector<PathKey>& keys, Tetrad tetrad
 double AcceleratedPath::begin() const { return tables_->pieces.front().begin; }
 double AcceleratedPath::end() const { return tables_->pieces.back().end; }
 
-OrbitPoint AcceleratedPath::at(double tau) const {
+double AcceleratedPath::birth() const { return std::nextafter(begin(), -kInfinity); }
+double AcceleratedPath::death() const { return std::nextafter(end(), kInfinity); }
+
+OrbitPoint AcceleratedPath::at(const ProperTime& tau) const {
+  const auto time = double(tau);
   const double slack = kEndRounding * (end() - begin());
-  if (!(tau >= begin() - slack && tau <= end() + slack))
-    throw std::domain_error("proper time " + short_number(tau) +
+  if (!(time >= begin() - slack && time <= end() + slack))
+    throw std::domain_error("proper time " + short_number(time) +
                             " (units of M) is not on the path");
   const std::vector<Piece>& pieces = tables_->pieces;
-  const auto after = std::upper_bound(pieces.begin() + 1, pieces.end(), tau,
+  const auto after = std::upper_bound(pieces.begin() + 1, pieces.end(), time,
                                       [](double value, const Piece& p) { return value < p.begin; });
   const auto& piece = *(after - 1);
-  const double t = std::clamp((tau - piece.begin) / (piece.end - piece.begin), 0.0, 1.0);
+  const double t = std::clamp((time - piece.begin) / (piece.end - piece.begin), 0.0, 1.0);
   return tables_->state(static_cast<std::size_t>(after - 1 - pieces.begin()), t);
 }
 
-std::optional<double> AcceleratedPath::time_at(double r, Leg leg, double after) const {
+std::pair<double, double> AcceleratedPath::reach() const {
+  constexpr int kSteps = 1000;
+  double low = at(begin()).r, high = low;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double r = at(std::lerp(begin(), end(), static_cast<double>(k) / kSteps)).r;
+    low = std::min(low, r), high = std::max(high, r);
+  }
+  return {low, high};
+}
+
+std::optional<ProperTime> AcceleratedPath::time_at(double r, Leg leg,
+                                                   const ProperTime& after) const {
   for (const Piece& piece : tables_->pieces) {
     const std::vector<double> cuts = turns_of(piece.r);
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
@@ -318,7 +311,7 @@ std::optional<double> AcceleratedPath::time_at(double r, Leg leg, double after) 
         continue;
       const double t = where(piece.r, r, cuts[k], cuts[k + 1]);
       const double tau = piece.begin + t * (piece.end - piece.begin);
-      if (tau >= after) return tau;
+      if (tau >= double(after)) return tau;
     }
   }
   return std::nullopt;

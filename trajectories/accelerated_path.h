@@ -9,12 +9,12 @@
 // not cross, which is 1e-12/(r - 2).
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "trajectories/geodesic.h"
+#include "trajectories/infinity.h"
 #include "trajectories/orbit_point.h"
 
 namespace domefall {
@@ -40,18 +40,20 @@ class AcceleratedPath {
   double end() const;
   // Returns the point for tau in [begin(), end()], and throws std::domain_error elsewhere.  azimuth
   // is that of the keys, and null_time counts from begin().
-  OrbitPoint at(double tau) const;
+  OrbitPoint at(const ProperTime& tau) const;
+  // These return the neighbours of begin() and end(), which still belong to the path.
+  double birth() const;
+  double death() const;
   // Returns the first proper time >= after at which r is passed on that leg, or nothing if it never
   // is.
-  std::optional<double> time_at(double r, Leg leg,
-                                double after = -std::numeric_limits<double>::infinity()) const;
+  std::optional<ProperTime> time_at(double r, Leg leg, const ProperTime& after = -kInfinity) const;
+  // Returns the least and the largest r, to a few parts in 1e5 of the path's extent.
+  std::pair<double, double> reach() const;
 
  private:
   struct Tables;
 
   std::shared_ptr<const Tables> tables_;
 };
-
-inline OrbitPoint point_at(const AcceleratedPath& path, double tau) { return path.at(tau); }
 
 }  // namespace domefall

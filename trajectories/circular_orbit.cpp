@@ -10,14 +10,14 @@ double period(const CircularOrbit& orbit) {
 }
 
 // In the rain tetrad u^Phi = L/r = 1/sqrt(r - 3), and u^R = sqrt(2/r) E/(1 - 2/r) since u^r = 0.
-OrbitPoint point_at(const CircularOrbit& orbit, double tau) {
-  const double azimuth = tau / (orbit.r * std::sqrt(orbit.r - 3));
+OrbitPoint CircularOrbit::at(const ProperTime& tau) const {
+  const double azimuth = double(tau) / (r * std::sqrt(r - 3));
   return {Region::kI,
           Tetrad::kRain,
-          orbit.r,
+          r,
           azimuth,
-          V3d(std::sqrt(2 / (orbit.r - 3)), 0, 1 / std::sqrt(orbit.r - 3)),
-          tau / std::sqrt(1 - 3 / orbit.r)};
+          V3d(std::sqrt(2 / (r - 3)), 0, 1 / std::sqrt(r - 3)),
+          double(tau) / std::sqrt(1 - 3 / r)};
 }
 
 }  // namespace domefall

@@ -4,19 +4,21 @@
 // has L^3.  It is unstable below r = 6, but still a solution.
 #pragma once
 
+#include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/orbit_point.h"
 
 namespace domefall {
 
 struct CircularOrbit {
   double r = 6;  // > 3
+
+  OrbitPoint at(const ProperTime& tau) const;
+  double held_radius() const { return r; }
 };
 
-inline constexpr double kCircularInnermost = 3;  // r must exceed it: there light itself circles
+inline constexpr double kCircularInnermost = Schwarzschild::light_circle();  // r must exceed it
 
 // Returns the proper time of one revolution, 2 pi r sqrt(r - 3), in units of M.
 double period(const CircularOrbit& orbit);
-
-OrbitPoint point_at(const CircularOrbit& orbit, double tau);
 
 }  // namespace domefall

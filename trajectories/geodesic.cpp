@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/infinity.h"
 #include "trajectories/orbit_table.h"
 #include "trajectories/short_number.h"
@@ -15,17 +16,6 @@ namespace {
 using PathKind = OrbitCurve::Kind;
 
 constexpr double kApexParameter = 1e-6;  // E = 0: 1 - r/2 = tanh^2 of it
-
-// Returns the celerity along R for the radial velocity u^r = dr/dtau.  In rain it is
-// w = (u^r + sE)/(1 - 2/r) or ((1 - E)(1 + E) + l^2)/(sE - u^r), whichever has no cancellation.
-// The outgoing tetrad is the mirror image of rain with the opposite signs of u^r and w.
-double radial_celerity(const OrbitCurve::Point& p, const OrbitConstants& c, bool outgoing) {
-  const double s = std::sqrt(2 / p.r), l = c.angular_momentum / p.r;
-  const double inward = outgoing ? p.radial_speed : -p.radial_speed;
-  const double w = inward >= 0 ? (l * l - c.excess_energy) / (s * c.energy + inward)
-                               : (s * c.energy - inward) / (1 - 2 / p.r);
-  return outgoing ? -w : w;
-}
 
 }  // namespace
 
@@ -66,14 +56,17 @@ OrbitPoint Geodesic::Tables::state(double s) const {
   if (curve.constants().energy == 0) return apex_state(s);
   const OrbitCurve::Point p = curve.at(s);
   const OrbitTable::Place place = table.at(s);
+  const OrbitConstants& c = curve.constants();
+  const double l = c.angular_momentum / p.r;
   const bool outgoing = s < turn, inside = p.r <= 2;
   const Region region = !inside ? Region::kI : outgoing ? Region::kIV : Region::kII;
   return {region,
           outgoing ? Tetrad::kOutgoing : Tetrad::kRain,
           p.r,
           place.azimuth,
-          V3d(radial_celerity(p, curve.constants(), outgoing), 0,
-              curve.constants().angular_momentum / p.r),
+          V3d(Schwarzschild::radial_celerity(p.r, p.radial_speed, c.energy, l * l - c.excess_energy,
+                                             outgoing),
+              0, l),
           place.null_time};
 }
 
@@ -131,6 +124,10 @@ std::optional<ProperTime> Geodesic::time_at(double r, Leg leg, const ProperTime&
   }
   if (tau < after) return std::nullopt;
   return tau;
+}
+
+std::optional<ProperTime> Geodesic::next_periastron(const ProperTime& after) const {
+  return innermost() > 0 ? time_at(innermost(), Leg::kOutward, after) : std::nullopt;
 }
 
 Geodesic mirrored(Geodesic geodesic) {

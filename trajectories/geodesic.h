@@ -36,16 +36,15 @@
 // factories throw it for an orbit of E, L or a periastron of 1e15 or more.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
+#include "trajectories/infinity.h"
 #include "trajectories/orbit_curve.h"
 #include "trajectories/orbit_point.h"
 
 namespace domefall {
-
-enum class Leg { kInward, kOutward };
 
 class Geodesic {
  public:
@@ -62,6 +61,7 @@ class Geodesic {
   double death() const;
   double innermost() const;  // r, units of M; 0 for what meets a singularity
   double outermost() const;  // r, units of M, or infinity
+  std::pair<double, double> reach() const { return {innermost(), outermost()}; }
   // These return proper time and azimuth from periastron to periastron, or infinity if the orbit is
   // not bound.
   double radial_period() const;
@@ -71,8 +71,10 @@ class Geodesic {
   OrbitPoint at(const ProperTime& tau) const;
   // Returns the first proper time >= after at which r is passed on that leg, or nothing if it never
   // is.  Bound orbits pass without end or beginning, and for them -infinity means 0.
-  std::optional<ProperTime> time_at(
-      double r, Leg leg, const ProperTime& after = -std::numeric_limits<double>::infinity()) const;
+  std::optional<ProperTime> time_at(double r, Leg leg, const ProperTime& after = -kInfinity) const;
+
+  // Returns the first proper time >= after of a periastron, or nothing without one.
+  std::optional<ProperTime> next_periastron(const ProperTime& after) const;
 
   // Mirrors the geodesic by t -> -t, which exchanges regions I and III, and their tetrads.
   friend Geodesic mirrored(Geodesic geodesic);
@@ -86,9 +88,5 @@ class Geodesic {
 };
 
 Geodesic mirrored(Geodesic geodesic);
-
-inline OrbitPoint point_at(const Geodesic& geodesic, const ProperTime& tau) {
-  return geodesic.at(tau);
-}
 
 }  // namespace domefall

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/hyperbolic_orbit.h"
 #include "trajectories/infinity.h"
 #include "trajectories/orbit_bounds.h"
@@ -92,7 +93,7 @@ Geodesic fall_from_rest(double from_r, double angular_momentum) {
 Geodesic thrown_outside(double r, double radial, double tangential) {
   require_above("r", kRadiusUnit, r, 2, "nothing rests at the horizon or inside, to throw from");
   require_celerity(radial, tangential);
-  const double f = (r - 2) / r, u2 = radial * radial + tangential * tangential;
+  const double f = Schwarzschild::lapse_squared(r), u2 = radial * radial + tangential * tangential;
   const OrbitConstants constants{std::sqrt((1 + u2) * f), u2 * f - 2 / r, r * tangential};
   return geodesic_through(constants, r, radial * std::sqrt(f));
 }
@@ -100,7 +101,8 @@ Geodesic thrown_outside(double r, double radial, double tangential) {
 Geodesic thrown_from_rain(double r, double radial, double tangential) {
   require_above("r", kRadiusUnit, r, 0, "the singularity is there");
   require_celerity(radial, tangential);
-  const double s = std::sqrt(2 / r), gamma = std::hypot(1, std::hypot(radial, tangential));
+  const double s = Schwarzschild::free_fall_speed(r),
+               gamma = std::hypot(1, std::hypot(radial, tangential));
   const double exact = gamma - s * radial;
   const double energy = std::abs(exact) < kNoEnergy * gamma ? 0 : exact;
   const OrbitConstants constants{std::abs(energy), (energy - 1) * (energy + 1), r * tangential};

@@ -3,62 +3,13 @@
 // ([Riazuelo] sec. sec_cam).  It never has a four-velocity in (t, r), which is singular at r = 2M.
 #pragma once
 
-#include <limits>
-
+#include "pipeline/spacetime/spacetime.h"
 #include "trajectories/directions.h"
 
 namespace domefall {
 
-enum class Region { kI, kII, kIII, kIV };
-
-inline const char* region_name(Region region) {
-  constexpr const char* kNames[] = {"I", "II", "III", "IV"};
-  return kNames[static_cast<int>(region)];
-}
-
-// A Tetrad is a frame that velocities and directions are given against.  It is radial free fall,
-// either inward from rest at infinity ("rain", T_I of [Riazuelo] eq. tetrad_start, regular in I and
-// II) or outward to rest at infinity (T_I', sec. on region IV, regular in IV and I).  The other two
-// are the mirror images of these under t -> -t, which fall from region III and to it.  R points to
-// the infinity that the frame belongs to.  Each is singular on the horizon that it does not cross,
-// so a state near r = 2M names the one that does.
-enum class Tetrad { kRain, kOutgoing, kRainOfThree, kOutgoingToThree };
-
-inline const char* tetrad_name(Tetrad t) {
-  constexpr const char* kNames[] = {"rain", "outgoing", "rain_of_III", "outgoing_to_III"};
-  return kNames[static_cast<int>(t)];
-}
-
-constexpr bool is_outgoing(Tetrad t) {
-  return t == Tetrad::kOutgoing || t == Tetrad::kOutgoingToThree;
-}
-// Says whether a tetrad is of region III.  What is said of sky I in the other two holds of sky III,
-// and the reverse.
-constexpr bool is_mirrored(Tetrad t) {
-  return t == Tetrad::kRainOfThree || t == Tetrad::kOutgoingToThree;
-}
-// Says whether a region has a tetrad.  Rain is found outside and beyond the future horizon, the
-// outgoing frame outside and before the past one.
-constexpr bool has_tetrad(Region region, Tetrad t) {
-  if (region == Region::kI || region == Region::kIII)
-    return is_mirrored(t) == (region == Region::kIII);
-  return is_outgoing(t) == (region == Region::kIV);
-}
-
-// These return what the reflection t -> -t leads to.
-constexpr Region mirror_of(Region region) {
-  if (region == Region::kI) return Region::kIII;
-  return region == Region::kIII ? Region::kI : region;
-}
-constexpr Tetrad mirror_of(Tetrad t) {
-  if (is_outgoing(t)) return is_mirrored(t) ? Tetrad::kOutgoing : Tetrad::kOutgoingToThree;
-  return is_mirrored(t) ? Tetrad::kRain : Tetrad::kRainOfThree;
-}
-
-// This is the radius of an observer in flat space.  Every formula has its limit there.
-inline constexpr double kFlatSpace = std::numeric_limits<double>::infinity();
-
 struct ObserverState {
+  Spacetime spacetime;
   Region region = Region::kI;
   Tetrad tetrad = Tetrad::kRain;  // has_tetrad(region, tetrad)
   double r = kFlatSpace;          // units of M, > 0; kFlatSpace without a black hole
@@ -83,6 +34,21 @@ struct ObserverState {
   M33d tetrad_from_camera;
 };
 
-inline bool is_flat(const ObserverState& o) { return o.r == kFlatSpace; }
+inline bool is_flat(const ObserverState& o) { return o.spacetime.is_flat(); }
+
+inline PerSky<bool> seen_skies(const ObserverState& o) {
+  return o.spacetime.seen_skies(o.region, o.tetrad, o.r);
+}
+
+// Says whether there is an observer at rest in r at the same place.
+inline bool has_rest(const ObserverState& o) { return o.r > o.spacetime.horizon(); }
+
+// Returns gamma v of what is at rest in r (outside) or in t (inside a horizon) against the tetrad.
+// The components are along R, Theta and Phi.
+V3d resting_celerity(const Spacetime& spacetime, double r, Tetrad tetrad);
+
+// Returns gamma v against the observer at rest, where there is one.  The components are along R,
+// Theta and Phi of the state's tetrad, and R points to growing r.
+V3d static_celerity(const ObserverState& o);
 
 }  // namespace domefall

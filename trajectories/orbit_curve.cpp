@@ -13,6 +13,13 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 
+// An L whose square no double holds turns nothing, and its azimuths would have no digits.
+OrbitConstants without_underflow(OrbitConstants constants) {
+  if (square(constants.angular_momentum) < std::numeric_limits<double>::min())
+    constants.angular_momentum = 0;
+  return constants;
+}
+
 }  // namespace
 
 OrbitCurve OrbitCurve::scattered(const OrbitConstants& constants, double periastron, double w1,
@@ -36,7 +43,7 @@ OrbitCurve OrbitCurve::bound(const OrbitConstants& constants, double periastron,
 OrbitCurve OrbitCurve::returning(const OrbitConstants& constants, double apoastron,
                                  double apoastron_over_two, double excess) {
   OrbitCurve c;
-  c.kind_ = Kind::kReturning, c.constants_ = constants;
+  c.kind_ = Kind::kReturning, c.constants_ = without_underflow(constants);
   c.far_ = apoastron, c.over_two_ = apoastron_over_two;
   c.w_ = (1 - 2 / apoastron) / 4, c.excess_ = excess;
   return c;
@@ -45,7 +52,8 @@ OrbitCurve OrbitCurve::returning(const OrbitConstants& constants, double apoastr
 OrbitCurve OrbitCurve::unturned(const OrbitConstants& constants, bool escaping, double w_b,
                                 double excess) {
   OrbitCurve c;
-  c.kind_ = escaping ? Kind::kEscaping : Kind::kPlunging, c.constants_ = constants;
+  c.kind_ = escaping ? Kind::kEscaping : Kind::kPlunging;
+  c.constants_ = without_underflow(constants);
   c.w_ = constants.angular_momentum > 4 ? w_b : 0.25;
   c.near_ = 1 / c.w_, c.far_ = kInfinity, c.over_two_ = kInfinity;
   c.excess_ = excess;

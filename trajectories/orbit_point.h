@@ -6,6 +6,9 @@
 
 namespace domefall {
 
+// A Leg is the part of an orbit on which r falls or grows.
+enum class Leg { kInward, kOutward };
+
 struct OrbitPoint {
   Region region = Region::kI;
   Tetrad tetrad = Tetrad::kRain;

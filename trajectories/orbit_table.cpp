@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/short_number.h"
 
 namespace domefall {
@@ -36,8 +37,6 @@ double steepness(const PanelValues& values) {
 
 }  // namespace
 
-double tortoise(double r, double over_two) { return r + 2 * std::log(std::abs(over_two) / 2); }
-
 OrbitTable::OrbitTable(const OrbitCurve& curve, double origin, double turn, double tolerance)
     : curve_(curve), turn_(turn), tolerance_(tolerance) {
   const OrbitConstants& c = curve.constants();
@@ -62,9 +61,9 @@ OrbitTable::Sums OrbitTable::rates(double s, bool ingoing, double& noise) const 
   const double e = curve_.constants().energy, l = curve_.constants().angular_momentum / p.r;
   const double inward = ingoing ? -p.radial_speed : p.radial_speed;
   const bool cancels = -inward > e / 2;
-  if (cancels) noise = std::max(noise, kNoise / std::abs(1 - 2 / p.r));
+  if (cancels) noise = std::max(noise, kNoise / std::abs(Schwarzschild::lapse_squared(p.r)));
   const double null_rate = e == 0    ? 0
-                           : cancels ? (e - inward) / (1 - 2 / p.r)
+                           : cancels ? (e - inward) / Schwarzschild::lapse_squared(p.r)
                                      : (1 + l * l) / (e + inward);
   return {p.rate, p.rate * l / p.r, p.rate * null_rate};
 }
@@ -89,9 +88,10 @@ void OrbitTable::append(double low, double high, int depth) {
   Panel panel;
   panel.low = low, panel.high = high;
   if (panels_.size() > kMostPanels)
-    throw std::runtime_error(
-        "an orbit of energy " + short_number(curve_.constants().energy) + " and angular momentum " +
-        short_number(curve_.constants().angular_momentum) + " takes too many panels");
+    throw std::domain_error("an orbit of energy " + short_number(curve_.constants().energy) +
+                            " and angular momentum " +
+                            short_number(curve_.constants().angular_momentum) +
+                            ", whose proper time double precision cannot tell");
   const double middle = (low + high) / 2;
   const bool wide = curve_.kind() != OrbitCurve::Kind::kBound && high - low > kWidest;
   const bool splits = depth < kDepth && middle > low && middle < high;
@@ -176,8 +176,9 @@ OrbitTable::Sums OrbitTable::count_between(Panels first, Panels last, const Sums
 
 void OrbitTable::sum_up(double origin) {
   if (std::isfinite(turn_) && curve_.constants().energy > 0) {
-    const double r = curve_.at(turn_).r;
-    jump_ = 2 * tortoise(r, turn_ == 0 ? curve_.outermost_over_two() : r - 2);
+    Radius at(curve_.at(turn_).r);
+    if (turn_ == 0) at.above_horizon = curve_.outermost_over_two();
+    jump_ = 2 * Schwarzschild::tortoise(at);
   }
   const std::vector<double> places = anchors(origin);
   const auto start = std::find(places.begin(), places.end(), origin);

@@ -71,7 +71,4 @@ class OrbitTable {
   Sums begin_, end_;
 };
 
-// Returns r + 2 ln |r/2 - 1|, from r and r - 2.
-double tortoise(double r, double over_two);
-
 }  // namespace domefall

@@ -4,23 +4,28 @@
 // that it is right to 4 epsilon at any depth.
 #pragma once
 
+#include <optional>
+#include <utility>
+
+#include "trajectories/infinity.h"
 #include "trajectories/orbit_point.h"
 
 namespace domefall {
 
 struct RadialInfall {
   double from_r = 30;  // > 0: r at tau = 0
-};
 
-// Returns the proper time from from_r to the singularity, rounded.  point_at() counts from the
-// rounded one.
-double time_to_singularity(const RadialInfall& fall);
+  OrbitPoint at(const ProperTime& tau) const;  // from 0 to below death()
+  static double birth() { return -kInfinity; }
+  // Returns the proper time from from_r to the singularity, rounded.  at() counts from the rounded
+  // one.
+  double death() const;
+  std::optional<ProperTime> time_at(double r, Leg leg, const ProperTime& after) const;
+  std::pair<double, double> reach() const { return {0, from_r}; }
+};
 
 // Returns the proper time from from_r to r, for 0 <= r <= from_r, without cancellation as r ->
 // from_r or 0.
 ProperTime proper_time_to(const RadialInfall& fall, double r);
-
-// tau is from 0 to below time_to_singularity.
-OrbitPoint point_at(const RadialInfall& fall, const ProperTime& tau);
 
 }  // namespace domefall

@@ -5,12 +5,12 @@
 
 namespace domefall {
 
-OrbitPoint point_at(const SpeedRamp& ramp, double tau) {
-  const double part = std::clamp(tau / ramp.duration, 0.0, 1.0);
-  const double rapidity = std::lerp(ramp.rapidity_begin, ramp.rapidity_end, part);
-  GivenVelocity now = ramp.frame;
-  now.celerity = celerity_against(ramp.frame.celerity, ramp.direction * std::sinh(rapidity));
-  return point_at(now, tau);
+OrbitPoint SpeedRamp::at(const ProperTime& tau) const {
+  const double part = std::clamp(double(tau) / duration, 0.0, 1.0);
+  const double rapidity = std::lerp(rapidity_begin, rapidity_end, part);
+  GivenVelocity now = frame;
+  now.celerity = celerity_against(frame.celerity, direction * std::sinh(rapidity));
+  return now.at(tau);
 }
 
 }  // namespace domefall

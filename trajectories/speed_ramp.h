@@ -11,9 +11,9 @@ struct SpeedRamp {
   V3d direction{1, 0, 0};                       // unit vector in that frame
   double rapidity_begin = 0, rapidity_end = 0;  // asinh(gamma v), >= 0
   double duration = 1;                          // proper time from one to the other, > 0
-};
 
-// tau is in [0, duration].  Before and after that the speed stays.
-OrbitPoint point_at(const SpeedRamp& ramp, double tau);
+  OrbitPoint at(const ProperTime& tau) const;  // before 0 and after `duration` the speed stays
+  double held_radius() const { return frame.r; }
+};
 
 }  // namespace domefall

@@ -2,20 +2,18 @@
 
 #include <cmath>
 
+#include "pipeline/spacetime/schwarzschild.h"
+
 namespace domefall {
 
 V3d resting_celerity(double r, Tetrad tetrad) {
-  const double celerity = r > 2 ? std::sqrt(2 / (r - 2)) : std::sqrt(r / (2 - r));
-  return {is_outgoing(tetrad) ? -celerity : celerity, 0, 0};
+  return resting_celerity(Schwarzschild{}, r, tetrad);
 }
 
-OrbitPoint point_at(const StaticObserver& observer, double tau) {
-  return {Region::kI,
-          Tetrad::kRain,
-          observer.r,
-          0,
-          resting_celerity(observer.r),
-          tau / std::sqrt(1 - 2 / observer.r)};
+OrbitPoint StaticObserver::at(const ProperTime& tau) const {
+  return {
+      Region::kI, Tetrad::kRain,       r,
+      0,          resting_celerity(r), double(tau) / std::sqrt(Schwarzschild::lapse_squared(r))};
 }
 
 }  // namespace domefall

@@ -2,22 +2,23 @@
 // rest.
 #pragma once
 
+#include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/orbit_point.h"
 
 namespace domefall {
 
 struct StaticObserver {
   double r = kFlatSpace;  // > 2
+
+  OrbitPoint at(const ProperTime& tau) const;
+  double held_radius() const { return r; }
+  static bool is_at_rest(const Spacetime&) { return true; }
 };
 
-inline constexpr double kStaticInnermost = 2;  // r must exceed it
+inline constexpr double kStaticInnermost = Schwarzschild::horizon();  // r must exceed it
 
-// Returns gamma v against the tetrad, with components (R, Theta, Phi), of what is at rest in r
-// (outside) or in t (inside, T_II and T_IV of [Riazuelo] eq. TR_IV), for r != 2.  u lies along d/dt
-// outside and orthogonal to it inside.  d/dt is T + s R in rain and T - s R in the outgoing frame,
-// with s = sqrt(2/r).
+// Returns gamma v of what is at rest near a Schwarzschild hole, for r != 2 (observer_state.h).  d/dt
+// is T + s R in rain and T - s R in the outgoing frame, with s = sqrt(2/r).
 V3d resting_celerity(double r, Tetrad tetrad = Tetrad::kRain);
-
-OrbitPoint point_at(const StaticObserver& observer, double tau);
 
 }  // namespace domefall

@@ -149,10 +149,4 @@ CodeMap DomeLight::map_for(const DomeCodes& dome) const {
   return map;
 }
 
-void change_dome(const DomeLight& light, GradedFrame& frame) {
-  DomeCodes dome;
-  dome.add_rows(frame, 0, frame.height);
-  light.map_for(dome).change_rows(frame, 0, frame.height);
-}
-
 }  // namespace domefall

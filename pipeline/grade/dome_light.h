@@ -89,7 +89,4 @@ class DomeLight {
   Curves curves_;
 };
 
-// Changes a whole domemaster on the calling thread.
-void change_dome(const DomeLight& light, GradedFrame& frame);
-
 }  // namespace domefall

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "pipeline/grade/grade_cells.h"
 #include "pipeline/grade/table_lookup.h"
 
 namespace domefall {

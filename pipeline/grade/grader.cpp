@@ -8,20 +8,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <vector>
 
-#include "pipeline/colour/colour_space.h"
-#include "pipeline/grade/cdl_step.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/regular_file.h"
 #include "pipeline/grade/config_check.h"
-#include "pipeline/grade/display_curves.h"
 #include "pipeline/grade/grade_table.h"
 #include "pipeline/grade/pixel_planes.h"
-#include "pipeline/grade/trial.h"
 #include "pipeline/grade/view_transform.h"
-#include "pipeline/image/errors.h"
-#include "pipeline/image/regular_file.h"
+#include "pipeline/sources/colour/colour_space.h"
 
 namespace domefall {
 
@@ -61,7 +59,6 @@ bool is_black(const Imath::half* rgb) {
   return (rgb[0].bits() | rgb[1].bits() | rgb[2].bits()) == 0;
 }
 
-// Says whether four pixels are black.
 bool are_black(const Imath::half* rgb) {
   std::array<std::uint64_t, 3> words;
   std::memcpy(words.data(), rgb, sizeof words);
@@ -107,7 +104,7 @@ struct Grader::Source {
 struct Grader::Processor {
   ocio::ConstCPUProcessorRcPtr cpu;  // from half floats to 16 bits, CDL and all
   Code black;
-  std::optional<CdlStep> cdl;  // nothing if it changes nothing
+  std::optional<Cdl> cdl;  // nothing if it changes nothing
 
   Processor(ocio::ConstCPUProcessorRcPtr halves, const Cdl& of_frame)
       : cpu(std::move(halves)), black(graded_black(*cpu)) {
@@ -154,7 +151,7 @@ struct Grader::Processor {
     PixelPlanes planes;
     const int blacks = split_pixels(in, count, planes);
     if (blacks == count) return fill_black(out, 0, count, black);
-    if (cdl) cdl->apply(planes, count);
+    if (cdl) apply_cdl(*cdl, planes, count);
     std::array<int, kMost + 1> missed;
     const int misses = table.look_up(planes, count, out, missed.data());
     if (cdl && blacks > 0)
@@ -182,7 +179,6 @@ void ignore_environment() {
     ocio::UnsetEnvVariable(name);
 }
 
-// Returns a table of what a processor does.
 std::unique_ptr<GradeTable> table_of(const ocio::Processor& processor) {
   const auto floats = processor.getOptimizedCPUProcessor(ocio::BIT_DEPTH_F32, ocio::BIT_DEPTH_F32,
                                                          ocio::OPTIMIZATION_DEFAULT);
@@ -205,12 +201,19 @@ void check(const GradeSettings& settings) {
 
 }  // namespace
 
+std::string ocio_note(const GradeSettings& settings) {
+  const char* const named = std::getenv("OCIO");  // NOLINT(concurrency-mt-unsafe)
+  if (!settings.shipped || !named || *named == '\0') return {};
+  return fmt::format(
+      "OCIO={} is not read; grade: {{config: FILE}} in the show names a configuration", named);
+}
+
 Grader::Grader(const GradeSettings& settings) {
   const std::string file = settings.config.string();
   if (file.empty()) throw InputError("no OpenColorIO configuration is named");
   if (RegularFile(settings.config).size() == 0) throw InputError(file + ": the file is empty");
   ignore_environment();
-  if (!settings.shipped) try_elsewhere(file, [&] { check(settings); });
+  if (!settings.shipped) try_in_child(file, [&] { check(settings); });
   GradeSettings plain = settings;
   plain.cdl = {};
   const ViewTransform view = chosen_view(read_config(file), plain);

@@ -20,18 +20,23 @@ struct TableError {
   double held;   // the part of the table's cells that were not left out for a larger one
 };
 
+// Returns a clause for people where $OCIO is set and the show names no configuration, and otherwise
+// nothing.  Other programs take their configuration from it.  A frame depends on its show and its
+// assets alone, so Domefall does not.
+std::string ocio_note(const GradeSettings& settings);
+
 // A Grader is the grade of a show, or of a frame whose CDL is another.  It takes ACEScg through the
 // show's ASC CDL in ACEScct, unless that changes nothing, then through a display and view of an
 // OpenColorIO configuration to 16 bits, clamped and rounded.  A pixel depends on its own input and
 // the frame's size alone.  Copies share one processor, and any number of threads may use it.
 //
 // Frames of 2^21 pixels and more, from 2k domes on, are graded by a table of the view
-// (grade_table.h), before which the CDL is a step of its own (cdl_step.h).  The table is made when
+// (grade_table.h), before which the CDL is a step of its own (apply_cdl).  The table is made when
 // the first such frame comes, by the threads that grade it.  Where a CDL makes it err by more than
 // half a step of 12 bits, the formulas are followed.
 class Grader {
  public:
-  // A configuration that is not the shipped one is first read in a process of its own (trial.h),
+  // A configuration that is not the shipped one is first read in a process of its own (try_in_child),
   // which takes 4 ms, because OpenColorIO follows a space that refers to itself until its stack is
   // full.
   //
@@ -68,7 +73,7 @@ class Grader {
   // These return the settings' own, or the configuration's defaults.
   const std::string& display() const { return display_; }
   const std::string& view() const { return view_; }
-  // Returns what the codes mean, where that can be said (display_curves.h).
+  // Returns what the codes mean, where that can be said (display_colour).
   const std::optional<DisplayColour>& colour() const { return colour_; }
 
  private:

@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/simd/lanes.h"
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/lanes.h"
 
 namespace domefall::grade_cells {
 namespace {

@@ -1,15 +1,20 @@
-// This file makes the transform that a grade consists of, from the working space to a display's
-// codes.
+// OpenColorIO configurations: their displays and views, the transform of a view, and what light a
+// display makes of its codes.
 #pragma once
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "pipeline/colour/colour_space.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/grade/dome_light.h"
 #include "pipeline/grade/grade_settings.h"
-#include "pipeline/image/errors.h"
+#include "pipeline/image/encode/display_colour.h"
+#include "pipeline/sources/colour/colour_space.h"
 
 namespace domefall {
 
@@ -22,7 +27,16 @@ struct ViewTransform {
 // Reads a configuration.  Throws InputError naming the file if it is none.
 OCIO_NAMESPACE::ConstConfigRcPtr read_config(const std::string& file);
 
-// Makes the transform.  Throws InputError if the configuration has not the display or the view,
+struct DisplayViews {
+  std::string display;
+  std::vector<std::string> views;
+};
+
+// Returns the active displays in the order of the configuration.  Throws InputError if the file is
+// no configuration.
+std::vector<DisplayViews> displays_of(const std::filesystem::path& config);
+
+// Makes the transform of a view.  Throws InputError if the configuration has not the display or the view,
 // with a list of those that it has, or no role by which frames can enter it.
 ViewTransform chosen_view(const OCIO_NAMESPACE::ConstConfigRcPtr& config,
                           const GradeSettings& settings);
@@ -43,5 +57,20 @@ void explained(const ViewTransform& view, const std::string& file, Step step) {
     throw InputError(message(error));
   }
 }
+
+// Returns the luminance of each code of each channel alone, of which white has 1 in all, for the
+// display and view of a configuration.  Throws InputError, which begins with `file`, if the colour
+// space of that view is not one of a display, so that nothing is said about light.  It does so,
+// too, if the display's light is not the sum of what the three channels give, or does not rise with
+// the codes.
+DomeLight::Curves display_curves(const OCIO_NAMESPACE::Config& config, const std::string& display,
+                                 const std::string& view, const std::string& file);
+
+// Returns what the codes of that view mean.  Returns nothing if the view's space is not one of a
+// display, if its light is not the sum of what the three channels give by one curve, or if this
+// curve is neither a power nor that of sRGB to a thousandth of white.  Primaries within 3e-4 of a
+// standard's are taken to be the standard's.
+std::optional<DisplayColour> display_colour(const OCIO_NAMESPACE::Config& config,
+                                            const std::string& display, const std::string& view);
 
 }  // namespace domefall

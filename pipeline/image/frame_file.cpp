@@ -10,18 +10,16 @@
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTimeCode.h>
 
-#include <cstring>
 #include <optional>
 #include <vector>
 
+#include "pipeline/base/errors.h"
+#include "pipeline/base/frame_rate.h"
+#include "pipeline/base/new_file.h"
+#include "pipeline/base/side_by_side.h"
 #include "pipeline/image/encode/exr_writer.h"
-#include "pipeline/image/encode/side_by_side.h"
-#include "pipeline/image/errors.h"
-#include "pipeline/image/frame_condition.h"
+#include "pipeline/image/frame_check.h"
 #include "pipeline/image/frame_head.h"
-#include "pipeline/image/frame_rate.h"
-#include "pipeline/image/frame_seal.h"
-#include "pipeline/image/new_file.h"
 
 namespace domefall {
 namespace {
@@ -110,23 +108,19 @@ FrameInfo info_of(const Imf::Header& header) {
   return info;
 }
 
-// Returns the type of the pixels.  Throws std::runtime_error for a layout that no frame has.
+// Returns the type of the colours.  Throws std::runtime_error for a layout that no frame has.
 Imf::PixelType check_layout(const Imf::Header& header) {
   const auto& box = header.dataWindow();
   if (box.min != Imath::V2i(0) || box != header.displayWindow())
     throw std::runtime_error("its windows are not those of a frame");
-  int count = 0;
   const Imf::Channel* red = header.channels().findChannel("R");
-  const Imf::PixelType type = red ? red->type : Imf::HALF;
-  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
-    ++count;
-    if (!std::strchr("RGB", channel.name()[0]) || channel.name()[1] != 0 || type == Imf::UINT ||
-        channel.channel().type != type || channel.channel().xSampling != 1 ||
-        channel.channel().ySampling != 1)
-      throw std::runtime_error("its channels are not floats R, G, B");
+  for (const char* name : {"R", "G", "B"}) {
+    const Imf::Channel* channel = header.channels().findChannel(name);
+    if (!channel || channel->type != red->type || channel->type == Imf::UINT ||
+        channel->xSampling != 1 || channel->ySampling != 1)
+      throw std::runtime_error("it has no floats R, G, B");
   }
-  if (count != 3) throw std::runtime_error("its channels are not floats R, G, B");
-  return type;
+  return red->type;
 }
 
 // Decodes the pixels.  Throws std::exception of some kind for anything that is wrong with the file.
@@ -152,11 +146,32 @@ void write_sealed(const std::filesystem::path& path, const ExrPicture& picture) 
   made.commit();
 }
 
+const std::vector<std::string> kColours{"R", "G", "B"};
+
 template <class T>
-void write_pixels(const std::filesystem::path& path, const ImageRgb<T>& frame,
-                  const FrameInfo& info, ExrCompression compression) {
-  ExrPicture picture{frame.width, frame.height, frame.pixels.data(), compression,
-                     attributes_of(info)};
+std::vector<ExrChannel> channels_of(const ImageRgb<T>& picture) {
+  return interleaved(kColours, picture.pixels.data());
+}
+
+template <class T>
+std::vector<ExrChannel> channels_of(const LayeredFrame<T>& frame) {
+  std::vector<ExrChannel> channels = channels_of(frame.picture);
+  if (!frame.alpha.empty()) channels.push_back({"A", frame.alpha.data()});
+  for (const LayerImage<T>& layer : frame.layers) {
+    const std::string prefix = std::string(kind_of(layer.layer).name) + ".";
+    for (ExrChannel channel : channels_of(layer.light)) {
+      channel.name = prefix + channel.name;
+      channels.push_back(std::move(channel));
+    }
+    if (!layer.alpha.empty()) channels.push_back({prefix + "A", layer.alpha.data()});
+  }
+  return channels;
+}
+
+void write_colours(const std::filesystem::path& path, int width, int height,
+                   std::vector<ExrChannel> channels, const FrameInfo& info,
+                   ExrCompression compression) {
+  ExrPicture picture{width, height, std::move(channels), compression, attributes_of(info)};
   const std::pair<std::string, ExrValue> colours[] = {{"chromaticities", kAcesCg},
                                                       {"colorSpace", "ACEScg"}};
   picture.attributes.insert(picture.attributes.begin(), std::begin(colours), std::end(colours));
@@ -170,20 +185,32 @@ void set_file_threads(int threads) {
   set_encoder_threads(threads);
 }
 
-void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info,
-                 ExrCompression compression) {
-  write_pixels(path, frame, info, compression);
+template <class T>
+void write_frame(const std::filesystem::path& path, const LayeredFrame<T>& frame,
+                 const FrameInfo& info, ExrCompression compression) {
+  write_colours(path, frame.picture.width, frame.picture.height, channels_of(frame), info,
+                compression);
 }
 
-void write_frame(const std::filesystem::path& path, const FloatImage& frame, const FrameInfo& info,
-                 ExrCompression compression) {
-  write_pixels(path, frame, info, compression);
+template <class T>
+void write_frame(const std::filesystem::path& path, const ImageRgb<T>& picture,
+                 const FrameInfo& info, ExrCompression compression) {
+  write_colours(path, picture.width, picture.height, channels_of(picture), info, compression);
 }
+
+template void write_frame(const std::filesystem::path&, const LayeredHalfFrame&, const FrameInfo&,
+                          ExrCompression);
+template void write_frame(const std::filesystem::path&, const LayeredFloatFrame&, const FrameInfo&,
+                          ExrCompression);
+template void write_frame(const std::filesystem::path&, const HalfFrame&, const FrameInfo&,
+                          ExrCompression);
+template void write_frame(const std::filesystem::path&, const FloatImage&, const FrameInfo&,
+                          ExrCompression);
 
 void write_channels(const std::filesystem::path& path, const ChannelImage& image,
                     const FrameInfo& info) {
-  write_sealed(path, {image.width, image.height, image.pixels.data(), ExrCompression::kZip,
-                      attributes_of(info), image.channels});
+  write_sealed(path, {image.width, image.height, interleaved(image.channels, image.pixels.data()),
+                      ExrCompression::kZip, attributes_of(info)});
 }
 
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path) {

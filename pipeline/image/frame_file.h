@@ -1,7 +1,7 @@
 // Rendered frames on the disk are scene-linear OpenEXR, with channels R, G, B of half floats or
-// floats, lossless.  The header says what the pixels are (chromaticities of ACEScg, colorSpace),
+// floats, lossless, and with A and the channels of layers (layer.h) where they are asked for.  The header says what the pixels are (chromaticities of ACEScg, colorSpace),
 // which frame of which show this is (the fields of FrameInfo) and what the digest of the file is
-// (frame_seal.h).  It says neither when nor where the frame was made, so the same frame has the
+// (frame_check.h).  It says neither when nor where the frame was made, so the same frame has the
 // same bytes, whatever the machine and the number of threads.
 #pragma once
 
@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/image/channel_image.h"
-#include "pipeline/image/encode/exr_compression.h"
+#include "pipeline/image/encode/exr_writer.h"
 #include "pipeline/image/frame_buffer.h"
+#include "pipeline/image/layer.h"
 
 namespace domefall {
 
@@ -33,18 +33,21 @@ struct FrameInfo {
 // caller's thread does it alone.  The bytes are the same.
 void set_file_threads(int threads);
 
-// Writes a frame under its final name when it is complete.  Throws as TemporaryFile does.
-void write_frame(const std::filesystem::path& path, const HalfFrame& frame, const FrameInfo& info,
-                 ExrCompression compression = ExrCompression::kZip);
-void write_frame(const std::filesystem::path& path, const FloatImage& frame, const FrameInfo& info,
-                 ExrCompression compression = ExrCompression::kZip);
+// Writes a frame under its final name when it is complete.  T is Imath::half or float.  Throws as
+// TemporaryFile does.
+template <class T>
+void write_frame(const std::filesystem::path& path, const LayeredFrame<T>& frame,
+                 const FrameInfo& info, ExrCompression compression = ExrCompression::kZip);
+template <class T>
+void write_frame(const std::filesystem::path& path, const ImageRgb<T>& picture,
+                 const FrameInfo& info, ExrCompression compression = ExrCompression::kZip);
 
 // Writes a picture of other channels in the same way, as 32-bit floats with a header without
 // colours.
 void write_channels(const std::filesystem::path& path, const ChannelImage& image,
                     const FrameInfo& info);
 
-// Reads back a frame that write_frame wrote.  Floats become halves as by half_frame().  Nothing is
+// Reads back the picture of a frame that write_frame wrote, without its layers.  Floats become halves as by half_frame().  Nothing is
 // decoded unless the digest of the file is right.  Throws InputError, which names the file, if it
 // is missing, damaged or was not written by write_frame, and throws as FileBytes::open.
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path);

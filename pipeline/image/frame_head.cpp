@@ -5,7 +5,7 @@
 #include <map>
 #include <string_view>
 
-#include "pipeline/image/encode/png_writer.h"
+#include "pipeline/image/encode/picture_writers.h"
 
 namespace domefall {
 namespace {
@@ -14,13 +14,8 @@ constexpr std::string_view kExrStart = "\x76\x2f\x31\x01", kPngStart = "\x89PNG\
                            kTiffLittle{"II*\0", 4}, kTiffBig{"MM\0*", 4},
                            kJpegStart = "\xff\xd8\xff";
 
-// Frames of earlier versions had a digest of their pixels alone.
-constexpr const char* kFormerExrDigest = "pixelDigest";
-constexpr std::string_view kFormerDigestLine = "pixels: ";
-
-void check_digest(const FrameHead& head, bool has_former_digest) {
-  if (head.ours && head.digest.empty() && !has_former_digest)
-    throw DamagedFile("its digest is gone");
+void check_digest(const FrameHead& head) {
+  if (head.ours && head.digest.empty()) throw DamagedFile("its digest is gone");
 }
 
 // ---- the description of a PNG, TIFF or JPEG: lines of "name: value" ----
@@ -51,7 +46,7 @@ void take_description(std::string_view text, std::uint64_t at, FrameHead& head) 
   if (digest != std::string_view::npos) head.digest_at = at + digest;
   head.ours =
       key || !head.digest.empty() || place_of_value(text, kSoftwareLine) != std::string_view::npos;
-  check_digest(head, place_of_value(text, kFormerDigestLine) != std::string_view::npos);
+  check_digest(head);
 }
 
 // ---- OpenEXR: "OpenEXR File Layout", Header ----
@@ -144,7 +139,7 @@ FrameHead read_exr_head(const FileBytes& file) {
   const bool key = text(kExrKey, head.key), digest = text(kExrDigest, head.digest);
   if (digest) head.digest_at = attributes.at(kExrDigest).at;
   head.ours = key || digest || attributes.contains(kExrTitle);
-  check_digest(head, attributes.contains(kFormerExrDigest));
+  check_digest(head);
   const auto rows = rows_per_part(static_cast<unsigned char>(value("compression", 1)[0]));
   if (version == kScanLines && rows) check_exr_table(file, at, head.height, *rows);
   return head;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/image/file_bytes.h"
+#include "pipeline/base/regular_file.h"
 
 namespace domefall {
 
@@ -22,7 +22,7 @@ struct FrameHead {
   bool ours = false;
   std::string title, projection, key;
   std::string frame;   // its number in the show, of a graded frame
-  std::string digest;  // of the whole file (frame_seal.h); earlier versions wrote none
+  std::string digest;  // of the whole file (frame_check.h)
 
   // Here stand the digest's digits and, in a PNG, the chunk that holds them, from its name to its
   // checksum.  All three are counted in bytes from the file's beginning.

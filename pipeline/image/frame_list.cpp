@@ -7,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace domefall {
 namespace {
@@ -30,6 +30,17 @@ bool take(std::string_view& rest, char c) {
   if (rest.empty() || rest[0] != c) return false;
   rest.remove_prefix(1);
   return true;
+}
+
+// Returns the index behind the frames from `first` on that are written as one range.  Frames that
+// do not follow one another need four for it, since three are no longer by themselves.
+std::size_t end_of_run(const std::vector<int>& frames, std::size_t first) {
+  std::size_t end = first + 1;
+  if (end == frames.size()) return end;
+  const int step = frames[end] - frames[first];
+  while (end < frames.size() && frames[end] - frames[end - 1] == step) ++end;
+  constexpr std::size_t kFewest = 4;
+  return step == 1 || end - first >= kFewest ? end : first + 1;
 }
 
 }  // namespace
@@ -58,11 +69,13 @@ std::vector<int> parse_frames(const std::string& text, int count) {
 
 std::string as_ranges(const std::vector<int>& frames) {
   std::string text;
-  for (std::size_t first = 0, last = 0; first < frames.size(); first = ++last) {
-    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
+  for (std::size_t first = 0, next = 0; first < frames.size(); first = next) {
+    next = end_of_run(frames, first);
+    const int step = next > first + 1 ? frames[first + 1] - frames[first] : 1;
     if (!text.empty()) text += ',';
     text += fmt::to_string(frames[first]);
-    if (last > first) text += fmt::format("-{}", frames[last]);
+    if (next > first + 1) text += fmt::format("-{}", frames[next - 1]);
+    if (step > 1) text += fmt::format("x{}", step);
   }
   return text;
 }

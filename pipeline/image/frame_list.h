@@ -12,7 +12,7 @@ namespace domefall {
 // `count` on.
 std::vector<int> parse_frames(const std::string& text, int count);
 
-// Returns frames that ascend as ranges, such as 0-9,12.
+// Returns frames that ascend as ranges, such as 0-9,12,20-90x10, which parse_frames() reads.
 std::string as_ranges(const std::vector<int>& frames);
 
 }  // namespace domefall

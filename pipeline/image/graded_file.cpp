@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "pipeline/image/encode/jpeg_writer.h"
-#include "pipeline/image/encode/png_writer.h"
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/new_file.h"
+#include "pipeline/image/encode/picture_writers.h"
+#include "pipeline/image/frame_check.h"
 #include "pipeline/image/frame_head.h"
-#include "pipeline/image/frame_seal.h"
-#include "pipeline/image/new_file.h"
-#include "pipeline/image/tiff_writer.h"
 
 namespace domefall {
 namespace {
@@ -65,6 +63,24 @@ void write_graded(const std::filesystem::path& path, const GradedFrame& frame,
     std::copy(frame.row(first), frame.row(end), rgb);
   };
   write_graded(path, {frame.width, frame.height, rows}, info, format);
+}
+
+const char* extension_of(GradedKind kind) {
+  if (kind == GradedKind::kJpeg) return "jpg";
+  return kind == GradedKind::kPng16 || kind == GradedKind::kPng8 ? "png" : "tif";
+}
+
+std::string format_id(const GradedFormat& format) {
+  if (format.kind == GradedKind::kJpeg) return fmt::format("JPEG {}", format.quality);
+  return format.kind == GradedKind::kPng8 || format.kind == GradedKind::kTiff8 ? "8 bits" : "";
+}
+
+GradedFormat format_by_name(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".png") return {GradedKind::kPng16};
+  if (extension == ".tif" || extension == ".tiff") return {GradedKind::kTiff16};
+  if (extension == ".jpg" || extension == ".jpeg") return {GradedKind::kJpeg};
+  throw InputError(path.string() + ": graded frames are .png, .tif, .tiff or .jpg");
 }
 
 }  // namespace domefall

@@ -1,10 +1,29 @@
 #include "pipeline/image/image_formats.h"
 
-namespace domefall {
+#include <dlfcn.h>
+#include <fmt/format.h>
 
-// The library stays for good, since OpenImageIO keeps threads.
+#include "pipeline/base/errors.h"
+
+namespace domefall {
+namespace {
+
+// The library stays for good, since OpenImageIO keeps threads.  The dynamic linker looks in the
+// program's RUNPATH, which CMakeLists.txt sets for the build tree and for an installation.
+const ImageFormats& load_formats() {
+  void* loaded = dlopen("libdomefall_openimageio.so", RTLD_LAZY | RTLD_LOCAL);
+  using Entry = const Interface* (*)();
+  const auto entry =
+      loaded ? reinterpret_cast<Entry>(dlsym(loaded, "domefall_openimageio")) : nullptr;
+  if (entry) return static_cast<const ImageFormats&>(*entry());
+  throw TemporaryError(
+      fmt::format("the part of this program that reads images cannot be loaded: {}", dlerror()));
+}
+
+}  // namespace
+
 const ImageFormats& image_formats() {
-  static const auto& loaded = late_library<ImageFormats>("domefall_image_formats", "reads images");
+  static const ImageFormats& loaded = load_formats();
   return loaded;
 }
 

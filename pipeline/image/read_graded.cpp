@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "pipeline/base/child_program.h"
 #include "pipeline/image/image_formats.h"
-#include "pipeline/image/memory_file.h"
 
 namespace domefall {
 namespace {
@@ -28,10 +28,10 @@ FrameCondition read_graded(const std::filesystem::path& path, const WantedFrame&
     return FrameCondition::kDamaged;
   }
   const FileBytes bytes(memory.number(), path);
-  const FrameCondition condition = examine_frame(bytes, path, wanted);
+  const FrameCondition condition = check_frame(bytes, path, wanted).condition;
   if (condition != FrameCondition::kGood) return condition;
   try {
-    const auto reader = image_formats().open(memory.path());
+    const auto reader = image_formats().open(memory.path(), PixelEncoding::kStored);
     const ImageLayout& layout = reader->layout();
     if (layout.width != wanted.width || layout.height != wanted.height || layout.channels != 3)
       throw std::runtime_error("its pixels are not those of its header");

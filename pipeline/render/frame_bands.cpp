@@ -9,7 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "pipeline/simd/half_row.h"
+#include "pipeline/base/simd/half_row.h"
 
 namespace domefall {
 namespace {
@@ -61,6 +61,90 @@ void store_row(const float* rgb, int row, ColumnRange inside, ImageRgb<T>& frame
           fmt::format("pixel ({}, {}) is not a finite number", k / 3 + 1, row + 1));
 }
 
+// BandLayers divide the light of a band among the layers of a frame while it is drawn.  What each
+// gets is what came to the picture since the layer before, so that their sum is the picture.
+template <class T>
+class BandLayers {
+ public:
+  BandLayers(LayeredFrame<T>& frame, LayerRows& rows, int first, int end)
+      : frame_(frame),
+        rows_(rows),
+        first_(first),
+        pixels_(static_cast<std::size_t>(end - first) *
+                static_cast<std::size_t>(frame.picture.width)) {
+    rows_.before.assign(3 * pixels_, 0);
+    rows_.left.assign(pixels_, 1);
+    rows_.taken.fill(false);
+    rows_.hider.reset();
+  }
+
+  // Gives a layer the light that has come to the picture since the last call.
+  void take(Layer layer, const float* rgb) {
+    std::vector<float>& before = rows_.before;
+    if (frame_.find(layer)) {
+      std::vector<float>& light = light_of(layer);
+      light.resize(before.size());
+      for (std::size_t k = 0; k < before.size(); ++k) light[k] = rgb[k] - before[k];
+    }
+    std::copy_n(rgb, before.size(), before.begin());
+  }
+
+  // Moves the light of blobs from one layer to another.
+  void move(Layer from, Layer to, const BlobLayer& blobs, SplatBuffer& splats) {
+    std::vector<float>& moved = rows_.moved;
+    moved.assign(kBandRows * 3 * static_cast<std::size_t>(frame_.picture.width), 0);
+    blobs.draw_band(first_ / kBandRows, splats, moved.data());
+    for (std::size_t k = 0; k < rows_.before.size(); ++k) {
+      if (frame_.find(from)) light_of(from)[k] -= moved[k];
+      if (frame_.find(to)) light_of(to)[k] += moved[k];
+    }
+  }
+
+  // Returns where a disc says how much of the light behind it is left.
+  float* left() { return rows_.left.data(); }
+  // Leaves that part of all light so far, behind a layer that hides the rest.
+  void hide_behind(Layer layer) {
+    rows_.hider = layer;
+    const std::vector<float>& left = rows_.left;
+    const auto dim = [&](std::vector<float>& light) {
+      for (std::size_t k = 0; k < left.size(); ++k)
+        for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) light[c] *= left[k];
+    };
+    dim(rows_.before);
+    for (LayerImage<T>& image : frame_.layers)
+      if (is_taken(image.layer)) dim(light_of(image.layer));
+  }
+
+  void store(int row, ColumnRange inside) {
+    const auto width = static_cast<std::size_t>(frame_.picture.width);
+    const std::size_t at = static_cast<std::size_t>(row - first_) * width;
+    for (LayerImage<T>& image : frame_.layers) {
+      if (is_taken(image.layer))
+        store_row(light_of(image.layer).data() + 3 * at, row, inside, image.light);
+      else
+        std::fill_n(image.light.row(row), 3 * width, T(0));
+      if (image.alpha.empty()) continue;
+      float* const alpha = image.alpha.data() + static_cast<std::size_t>(row) * width;
+      if (image.layer == rows_.hider)
+        for (std::size_t k = 0; k < width; ++k) alpha[k] = 1 - rows_.left[at + k];
+      else
+        std::fill_n(alpha, width, 0.0f);
+    }
+  }
+
+ private:
+  bool is_taken(Layer layer) const { return rows_.taken[static_cast<std::size_t>(layer)]; }
+  std::vector<float>& light_of(Layer layer) {
+    rows_.taken[static_cast<std::size_t>(layer)] = true;
+    return rows_.light[static_cast<std::size_t>(layer)];
+  }
+
+  LayeredFrame<T>& frame_;
+  LayerRows& rows_;
+  int first_;
+  std::size_t pixels_;
+};
+
 // A StarsEnd ends the stars of a band at the borders of the skies.  Nearly all of a band sees a sky
 // as a whole and costs nothing, since only blocks of columns that see no sky, or a border, are
 // visited.
@@ -72,19 +156,16 @@ class StarsEnd {
            int end, const float* rgb, std::vector<float>& kept)
       : borders_(borders), projection_(projection), first_(first), end_(end), kept_(kept) {
     const int blocks = (box.last_column - box.first_column) / kColumns + 1;
-    std::vector<CameraDirection> middles(static_cast<std::size_t>(blocks));
     const double half_rows = (end - first) / 2.0;
-    directions_along(projection,
-                     {box.first_column + 1 + (kColumns - 1) / 2.0, first + 0.5 + half_rows},
-                     kColumns, blocks, middles.data());
-    // No pixel is wider than the central one, so half of the block's diagonal is a safe reach.
-    const double reach = central_pixel_angle(projection) * std::hypot(kColumns / 2.0, half_rows);
+    // Half of the block's diagonal is a safe reach.
+    const double reach = largest_pixel_angle(projection) * std::hypot(kColumns / 2.0, half_rows);
     kept_.clear();
     for (int k = 0; k < blocks; ++k) {
-      const SkyBorders::Sight sight =
-          borders.sight_around(middles[static_cast<std::size_t>(k)], reach);
-      if (sight == SkyBorders::Sight::kSky) continue;
       const int column = box.first_column + k * kColumns;
+      const CameraDirection middle =
+          direction_at(projection, {column + 1 + (kColumns - 1) / 2.0, first + 0.5 + half_rows});
+      const SkyBorders::Sight sight = borders.sight_around(middle, reach);
+      if (sight == SkyBorders::Sight::kSky) continue;
       blocks_.push_back({column, std::min(box.last_column, column + kColumns - 1), sight});
       each_row(blocks_.back(), [&](int, std::size_t at, std::size_t count) {
         kept_.insert(kept_.end(), rgb + at, rgb + at + count);
@@ -146,17 +227,19 @@ class StarsEnd {
 }  // namespace
 
 template <class T>
-void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
-                const DiscPass* disc, const std::optional<SkyBorders>& borders,
-                const BlobLayer* bodies, BandMemory& memory, ImageRgb<T>& frame) {
+void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& drawn,
+                BandMemory& memory, LayeredFrame<T>& frame) {
+  const int width = frame.picture.width, height = frame.picture.height;
   // A row has this many floats.
-  const auto stride = static_cast<std::size_t>(frame.width) * 3;
+  const auto stride = static_cast<std::size_t>(width) * 3;
   const bool lit = scene.plan.has_background();
+  const BlobLayer& stars = *drawn.stars;
   // Outside this box every pixel sees a sky.
-  const std::optional<PixelBox> box = borders ? borders->box_without_sky() : std::nullopt;
+  const std::optional<PixelBox> box =
+      drawn.borders ? drawn.borders->box_without_sky() : std::nullopt;
   // Draws one band, in which everything happens while its rows are in the cache.
   const auto draw_band = [&](int band, SplatBuffer& splats) {
-    const int first = band * kBandRows, end = std::min(frame.height, first + kBandRows);
+    const int first = band * kBandRows, end = std::min(height, first + kBandRows);
     // SkyPass may overwrite one float behind the last row.
     std::vector<float>& rgb = memory.rows.local();
     rgb.resize(stride * kBandRows + 1);
@@ -164,21 +247,37 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
       sky.fill_band(band, rgb.data());
     else
       std::fill(rgb.begin(), rgb.end(), 0.0f);
+    std::optional<BandLayers<T>> layers;
+    if (!frame.layers.empty()) layers.emplace(frame, memory.layers.local(), first, end);
+    if (layers && lit) layers->take(Layer::kSky, rgb.data());
     // The order matters: stars end before the disc and the bodies, which are nearer, are drawn.
     const bool bordered = box && first <= box->last_row && end > box->first_row;
     std::optional<StarsEnd> stars_end;
     if (bordered)
-      stars_end.emplace(*borders, scene.projection(), *box, first, end, rgb.data(),
+      stars_end.emplace(*drawn.borders, scene.projection(), *box, first, end, rgb.data(),
                         memory.background.local());
     stars.draw_band(band, splats, rgb.data());
     if (stars_end) stars_end->end_stars(rgb.data());
-    if (disc) disc->draw_rows(first, end, rgb.data());
-    if (bodies) bodies->draw_band(band, splats, rgb.data());
-    for (int row = first; row < end; ++row)
-      store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row,
-                inside_columns(scene.projection(), row), frame);
+    if (layers) layers->take(Layer::kStars, rgb.data());
+    if (layers && drawn.crowded_skies)
+      layers->move(Layer::kStars, Layer::kSky, *drawn.crowded_skies, splats);
+    if (drawn.disc) {
+      drawn.disc->draw_rows(first, end, rgb.data(), layers ? layers->left() : nullptr);
+      if (layers) layers->hide_behind(Layer::kDisc);
+      if (layers) layers->take(Layer::kDisc, rgb.data());
+    }
+    if (drawn.bodies) {
+      drawn.bodies->draw_band(band, splats, rgb.data());
+      if (layers) layers->take(Layer::kBodies, rgb.data());
+    }
+    for (int row = first; row < end; ++row) {
+      const ColumnRange inside = inside_columns(scene.projection(), row);
+      store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row, inside,
+                frame.picture);
+      if (layers) layers->store(row, inside);
+    }
   };
-  const int bands = (frame.height + kBandRows - 1) / kBandRows;
+  const int bands = (height + kBandRows - 1) / kBandRows;
   tbb::parallel_for(
       tbb::blocked_range<int>(0, bands, stars.has_splats() ? bands_in_a_run(bands) : 1),
       [&](const tbb::blocked_range<int>& run) {
@@ -191,11 +290,9 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& st
       tbb::simple_partitioner());
 }
 
-template void draw_bands(const FrameScene&, const SkyPass&, const BlobLayer&, const DiscPass*,
-                         const std::optional<SkyBorders>&, const BlobLayer*, BandMemory&,
-                         HalfFrame&);
-template void draw_bands(const FrameScene&, const SkyPass&, const BlobLayer&, const DiscPass*,
-                         const std::optional<SkyBorders>&, const BlobLayer*, BandMemory&,
-                         FloatImage&);
+template void draw_bands(const FrameScene&, const SkyPass&, const DrawnLight&, BandMemory&,
+                         LayeredHalfFrame&);
+template void draw_bands(const FrameScene&, const SkyPass&, const DrawnLight&, BandMemory&,
+                         LayeredFloatFrame&);
 
 }  // namespace domefall

@@ -4,11 +4,12 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <array>
 #include <atomic>
 #include <optional>
 #include <vector>
 
-#include "pipeline/image/frame_buffer.h"
+#include "pipeline/image/layer.h"
 #include "pipeline/render/blobs/blob_layer.h"
 #include "pipeline/render/disc/disc_pass.h"
 #include "pipeline/render/rays/sky_borders.h"
@@ -19,11 +20,20 @@ namespace domefall {
 // Rendering throws RenderStopped when it was told to stop.
 struct RenderStopped {};
 
+// LayerRows are the memory in which the light of a band is divided among layers.
+struct LayerRows {
+  std::vector<float> before, left, moved;
+  std::array<std::vector<float>, kLayers.size()> light;
+  std::array<bool, kLayers.size()> taken;
+  std::optional<Layer> hider;  // the layer that leaves `left` of what is behind it
+};
+
 // BandMemory is the memory of each thread.  It is kept from frame to frame, since getting new
 // memory takes more time than writing into it.
 struct BandMemory {
   tbb::enumerable_thread_specific<SplatBuffer> splats{};
   tbb::enumerable_thread_specific<std::vector<float>> rows{}, background{};
+  tbb::enumerable_thread_specific<LayerRows> layers{};
   const std::atomic<bool>* stop = nullptr;  // set to end the frame early; or null
 
   void throw_if_stopped() const {
@@ -31,14 +41,23 @@ struct BandMemory {
   }
 };
 
-// Draws skies and stars, the disc in front of them, and bodies into a frame of the projection's
-// size, by all threads of the arena that calls.  The disc and the bodies may be null.  If borders
-// are given, stars end at them, but bodies do not.  In a half frame, a value beyond the largest
-// half (65504) is stored as the largest.  T is Imath::half or float.  Throws std::runtime_error,
-// naming the pixel, if a value is not finite, and RenderStopped once `stop` is set.
+// DrawnLight is what is drawn over the skies, in this order.  What is null is not there.
+struct DrawnLight {
+  // Stars end at the borders, if there are any; skies that are drawn as blobs are among the stars.
+  const BlobLayer* stars = nullptr;
+  const SkyBorders* borders = nullptr;
+  const BlobLayer* crowded_skies = nullptr;  // these alone, for frames with layers
+  const DiscPass* disc = nullptr;
+  const BlobLayer* bodies = nullptr;
+};
+
+// Draws skies and what is before them into a frame of the projection's size, and into those of its
+// layers that it has, by all threads of the arena that calls.  In a half frame, a value beyond the
+// largest half (65504) is stored as the largest.  T is Imath::half or float.  Throws
+// std::runtime_error, naming the pixel, if a value is not finite, and RenderStopped once `stop` is
+// set.
 template <class T>
-void draw_bands(const FrameScene& scene, const SkyPass& sky, const BlobLayer& stars,
-                const DiscPass* disc, const std::optional<SkyBorders>& borders,
-                const BlobLayer* bodies, BandMemory& memory, ImageRgb<T>& frame);
+void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& drawn,
+                BandMemory& memory, LayeredFrame<T>& frame);
 
 }  // namespace domefall

@@ -21,7 +21,8 @@ bool append_body(const BodySight& sight, const Body& body, const BodySight::Imag
   // The disc hides each piece by itself, since the edge of its image may cross that of the body.
   if (disc)
     for (SkyImage& piece : pieces)
-      piece.amplification *= disc->left_before(sight.seen(piece).direction, image.traced.psi);
+      piece.amplification *= disc->left_before(sight.seen(piece).direction, image.traced.psi,
+                                               largest_pixel_angle(scene.projection()));
   return is_one ? finder.append_image(star, pieces[0], images)
                 : finder.append_pieces(star, pieces, images);
 }

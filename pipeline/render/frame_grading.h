@@ -36,7 +36,4 @@ class FrameGrading {
   std::optional<Grader> of_frame_;  // kept for the frames that follow
 };
 
-// Returns the number of threads that --threads asks for, where 0 stands for one per processor.
-int all_threads(int given);
-
 }  // namespace domefall

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "pipeline/image/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/render/key_parts.h"
 #include "pipeline/render/overlay/frame_overlays.h"
 #include "pipeline/render/overlay/frame_titles.h"
-#include "pipeline/render/rays/steady.h"
+#include "pipeline/render/rays/key_rounding.h"
 #include "pipeline/render/rendered_frame.h"
-#include "pipeline/sky/catalogue/read_star_catalogue.h"
-#include "pipeline/sky/read_sky.h"
+#include "pipeline/sources/sky/read_sky.h"
+#include "pipeline/sources/stars/star_catalogue.h"
 
 namespace domefall {
 namespace {
@@ -32,9 +32,9 @@ void add_point_spread(Digest& digest, const PointSpreadLaw& law) {
 
 // Adds the numbers of a sky, which keyframes may change from frame to frame.
 void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
-  digest.add(steady(sky.background_gain))
-      .add(steady(sky.star_gain))
-      .add(steady(sky.max_magnitude))
+  digest.add(rounded_for_key(sky.background_gain))
+      .add(rounded_for_key(sky.star_gain))
+      .add(rounded_for_key(sky.max_magnitude))
       .add(sky.soft_limit ? "soft" : "hard");
 }
 
@@ -102,18 +102,23 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   for (const Body& body : show.bodies) {
     common.add("body").add(kBodiesVersion);
     for (const V3d& v : {body.normal.v, body.node.v})
-      for (const double x : {v.x, v.y, v.z}) common.add(steady(x));
+      for (const double x : {v.x, v.y, v.z}) common.add(rounded_for_key(x));
     // The start of a free motion determines all of it.
     const OrbitPoint start = point_at(body.trajectory, body.start);
     common.add(static_cast<int>(body.trajectory.index())).add(static_cast<int>(start.tetrad));
-    for (const double x : {start.r, start.celerity.x, start.celerity.z}) common.add(steady(x));
+    for (const double x : {start.r, start.celerity.x, start.celerity.z})
+      common.add(rounded_for_key(x));
     for (const double x :
          {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
           body.temperature, body.magnitude, body.radius})
       common.add(x);
   }
   // A show that changes from halves to floats, or back, makes all of its frames again.
-  if (keeps_floats(show)) common.add("float");
+  if (RenderedFrame::keeps_floats(show)) common.add("float");
+  if (!show.output.layers.empty()) {
+    common.add("layers");
+    for (const Layer layer : show.output.layers) common.add(kind_of(layer).name);
+  }
   common_ = common.hex();
   Digest three;
   add_sky(three, show.sky[SkyRegion::kIII]);
@@ -152,11 +157,8 @@ std::string FrameKeys::exposed(const FrameState& state) const {
   if (!(show_.exposure.shutter > 0)) return instant(state);
   // Three instants stand for all that are seen while the shutter is open.
   Digest digest;
-  for (FrameState& exposed : exposure_states(show_, state.frame, 3)) {
-    take_size(state, exposed);
-    digest.add(instant(exposed));
-  }
-  return digest.add(steady(show_.exposure.shutter)).hex();
+  for (const FrameState& exposed : exposure_states(show_, state, 3)) digest.add(instant(exposed));
+  return digest.add(rounded_for_key(show_.exposure.shutter)).hex();
 }
 
 std::string FrameKeys::instant(const FrameState& state) const {
@@ -166,7 +168,7 @@ std::string FrameKeys::instant(const FrameState& state) const {
   digest.add(common_).add(state.frame);
   add_observer(digest, o);
   add_projection(digest, state.projection);
-  digest.add(steady(state.settings.ev));
+  digest.add(rounded_for_key(state.settings.ev));
   add_settings(digest, state.settings.sky[SkyRegion::kI]);
   // Settings of a sky enter the keys of the frames that can see it, and of no others.
   if (o.region == Region::kII || o.region == Region::kIII) {
@@ -180,19 +182,20 @@ std::string FrameKeys::instant(const FrameState& state) const {
   // Stars that race around the ring are drawn by how far the sky turns until the next frame.
   const bool starry = show_.sky[SkyRegion::kI].stars || show_.sky[SkyRegion::kIII].stars;
   if (starry && !is_flat(o) && !(show_.exposure.shutter > 0)) {
-    const V3d turn = sky_turn(show_, state);
-    for (const double v : {turn.x, turn.y, turn.z}) digest.add(v);
+    for (const double v : {state.sky_turn.x, state.sky_turn.y, state.sky_turn.z}) digest.add(v);
   }
   // Whatever moves or glows with time is seen by the observer's null time.
   const SkyBackground& singularity = background_of(show_, state.segment, SkyRegion::kIV);
-  if (!show_.bodies.empty()) digest.add("bodies").add(steady(o.null_time));
-  if (!is_flat(o) && std::holds_alternative<RingsSky>(singularity)) digest.add(steady(o.null_time));
-  if (show_.disc && show_.disc->pattern) digest.add("pattern").add(steady(o.null_time));
+  if (!show_.bodies.empty()) digest.add("bodies").add(rounded_for_key(o.null_time));
+  if (!is_flat(o) && std::holds_alternative<RingsSky>(singularity))
+    digest.add(rounded_for_key(o.null_time));
+  if (show_.disc && show_.disc->pattern) digest.add("pattern").add(rounded_for_key(o.null_time));
   if (const auto own = own_skies_.find(state.segment); own != own_skies_.end())
     digest.add("own skies").add(own->second);
-  if (state.fade != 1) digest.add("fade").add(steady(state.fade));
+  if (state.fade != 1) digest.add("fade").add(rounded_for_key(state.fade));
   // The segment that vanishes in a dissolve is a frame of its own to the key.
-  if (state.vanishing) digest.add(instant(*state.vanishing)).add(steady(state.vanishing_part));
+  if (state.vanishing)
+    digest.add(instant(*state.vanishing)).add(rounded_for_key(state.vanishing_part));
   return digest.hex();
 }
 
@@ -204,8 +207,8 @@ std::string FrameKeys::graded(const std::string& scene_key, const FrameState& st
   if (cdl != Cdl{}) {
     digest.add("cdl");
     for (const auto& colours : {cdl.slope, cdl.offset, cdl.power})
-      for (const double v : colours) digest.add(steady(v));
-    digest.add(steady(cdl.saturation));
+      for (const double v : colours) digest.add(rounded_for_key(v));
+    digest.add(rounded_for_key(cdl.saturation));
   }
   return digest.hex();
 }

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/image/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/render/file_stamp.h"
 #include "pipeline/show/frame_state.h"
 

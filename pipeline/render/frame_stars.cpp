@@ -41,9 +41,9 @@ void add_stars(const StarImageFinder& maker, const SceneStars& stars,
 // sphere.
 double images_expected(std::size_t stars, const FrameScene& scene) {
   const Projection& p = scene.projection();
-  const double pixel = central_pixel_angle(p);
+  const double pixel = largest_pixel_angle(p);
   const double part =
-      std::holds_alternative<Domemaster>(p)
+      traits_of(p).half_sphere
           ? 0.5
           : std::min(1.0, pixel * pixel * columns(p) * rows(p) / (4 * std::numbers::pi));
   // In flat space each star has one image.

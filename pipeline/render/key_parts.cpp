@@ -1,24 +1,27 @@
 #include "pipeline/render/key_parts.h"
 
-#include "pipeline/render/rays/steady.h"
+#include "pipeline/render/rays/key_rounding.h"
 
 namespace domefall {
 
 void add_observer(Digest& digest, const ObserverState& o) {
   digest.add(region_name(o.region))
       .add(tetrad_name(o.tetrad))
-      .add(steady(o.r))
-      .add(steady(o.proper_time));
-  for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(steady(v));
+      .add(rounded_for_key(o.r))
+      .add(rounded_for_key(o.proper_time));
+  // A spacetime without parameters, or of a mass alone, is told by r, which is in units of it.
+  const std::vector<double> parameters = o.spacetime.parameters();
+  if (!parameters.empty())
+    digest.add("spacetime").add(static_cast<int>(o.spacetime.kind().index()));
+  for (const double parameter : parameters) digest.add(rounded_for_key(parameter));
+  for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(rounded_for_key(v));
   add_rotation(digest, o.sky_from_tetrad);
   add_rotation(digest, o.tetrad_from_camera);
 }
 
 void add_projection(Digest& digest, const Projection& p) {
   digest.add(projection_name(p)).add(columns(p)).add(rows(p));
-  // Other projections have a fixed field of view, which their names imply.
-  if (const auto fov = field_of_view(p)) digest.add(steady(*fov));
-  if (const auto* fisheye = std::get_if<Fisheye>(&p)) digest.add(steady(fisheye->cut_back));
+  for (const double parameter : further_parameters(p)) digest.add(rounded_for_key(parameter));
 }
 
 void add_effects(Digest& digest, const Effects& e) {
@@ -37,7 +40,7 @@ void add_disc(Digest& digest, const std::optional<Disc>& disc) {
   // The axes come from sines, which differ between processors.  The other numbers stand in the
   // show.
   for (const V3d& axis : {disc->normal.v, disc->node.v})
-    for (const double v : {axis.x, axis.y, axis.z}) digest.add(steady(v));
+    for (const double v : {axis.x, axis.y, axis.z}) digest.add(rounded_for_key(v));
   digest.add(disc->t_max_k).add(disc->luminance).add(disc->opacity);
   digest.add(disc->plunging ? "plunging" : "stable");
   // Without a pattern the disc looks the same at all times, and slow light changes nothing.

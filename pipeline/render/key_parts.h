@@ -3,14 +3,14 @@
 
 #include <optional>
 
-#include "pipeline/image/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/show/show.h"
 #include "projections/projection.h"
 #include "trajectories/observer_state.h"
 
 namespace domefall {
 
-// Each of these functions adds all of its second argument, with numbers as steady.h rounds them.
+// Each of these functions adds all of its second argument, with numbers as key_rounding.h rounds them.
 void add_observer(Digest& digest, const ObserverState& observer);
 void add_projection(Digest& digest, const Projection& projection);
 // Shows that leave no effect out keep the keys that they had before effects could be left out.

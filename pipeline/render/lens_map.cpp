@@ -8,9 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/image/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/render/key_parts.h"
-#include "pipeline/render/overlay/seen_better.h"
 #include "pipeline/render/rays/view_tracer.h"
 
 namespace domefall {
@@ -40,10 +39,8 @@ class LensMapper {
   // `show` and `state` must outlive this object.
   LensMapper(const Show& show, const FrameState& state)
       : projection_(state.projection),
-        straight_(is_flat(state.observer) || !show.effects.lensing),
         // All three skies get their tables, since a map describes each pixel, lit or not.
-        optics_(make_hole_optics(state.observer.r, state.observer.tetrad, {{true, true, true}})),
-        tracer_(state, optics_, show.effects) {}
+        tracer_(state, WantedSkies{{true, true, true}}, show.effects) {}
 
   // Fills in the numbers of a pixel, which must be 0 before.
   void fill(PixelPosition at, float* out) const {
@@ -69,13 +66,11 @@ class LensMapper {
     set(kOnePlusZ, 1 / ray.frequency_ratio);
     set(kAmplification, amplification(ray.bundle, pixel_angle(projection_, at)));
     // Images of one order have swept azimuths between two neighbouring multiples of pi.
-    if (!straight_) set(kOrder, std::floor(ray.bundle.azimuth / std::numbers::pi));
+    set(kOrder, std::floor(ray.swept / std::numbers::pi));
   }
 
  private:
   const Projection& projection_;
-  bool straight_;  // then all images are of order 0
-  HoleOptics optics_;
   ViewTracer tracer_;
 };
 
@@ -107,7 +102,7 @@ SkyMapPlace sky_map_place(const V3d& d) {
 }
 
 std::string lens_map_key(const Show& show, const FrameState& state) {
-  const FrameState& seen = seen_better(state);
+  const FrameState& seen = dominant_view(state);
   Digest digest;
   digest.add("lens map").add(DOMEFALL_VERSION).add(kLensMapVersion).add(show.title);
   digest.add(show.frames_per_second).add(state.frame);
@@ -120,7 +115,7 @@ std::string lens_map_key(const Show& show, const FrameState& state) {
 
 ChannelImage make_lens_map(const Show& show, const FrameState& state, int threads) {
   // Directions of two views have no mean, so that a dissolve has the map of one of them.
-  const FrameState& seen = seen_better(state);
+  const FrameState& seen = dominant_view(state);
   const LensMapper mapper(show, seen);
   ChannelImage map(columns(seen.projection), rows(seen.projection), lens_channel_names());
   tbb::task_arena(threads).execute([&] {

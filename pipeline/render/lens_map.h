@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/image/channel_image.h"
+#include "pipeline/image/frame_buffer.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {

@@ -5,11 +5,12 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
+#include <vector>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/stop_watch.h"
 #include "pipeline/render/disc/disc_pass.h"
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/frame_bodies.h"
@@ -19,23 +20,10 @@
 #include "pipeline/render/shutter.h"
 #include "pipeline/render/sky/unresolved_sky.h"
 #include "pipeline/render/thread_limit.h"
-#include "projections/cubemap_faces.h"
+#include "projections/projection.h"
 
 namespace domefall {
 namespace {
-
-// A StopWatch measures the stages of a frame, one lap after another.
-class StopWatch {
- public:
-  // Returns the seconds since the last lap.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // Returns the number of threads to use.  More threads than processors would gain nothing, and TBB
 // would warn of them on the terminal.
@@ -46,22 +34,72 @@ int threads_of(int wanted) {
 
 // Leaves only a part of a frame's light.
 template <class T>
-void fade(ImageRgb<T>& frame, double part) {
+void fade(LayeredFrame<T>& frame, double part) {
   const auto left = static_cast<float>(part);
   // Halves are multiplied as floats and rounded once.
-  for (T& value : frame.pixels) value = left * static_cast<float>(value);
+  frame.each_light([&](std::vector<T>& values) {
+    for (T& value : values) value = left * static_cast<float>(value);
+  });
 }
 
-// Replaces `part` of a frame's light by that of another one.
 template <class T>
-void dissolve(ImageRgb<T>& frame, const ImageRgb<T>& vanishing, double part) {
+std::vector<Layer> layers_of(const LayeredFrame<T>& frame) {
+  std::vector<Layer> layers;
+  for (const LayerImage<T>& image : frame.layers) layers.push_back(image.layer);
+  return layers;
+}
+
+// A PictureAlone lends the memory of a picture to a frame without layers, and gives it back, also
+// when rendering is stopped.
+template <class T>
+struct PictureAlone {
+  explicit PictureAlone(ImageRgb<T>& lent) : picture(lent) { std::swap(whole.picture, picture); }
+  ~PictureAlone() { std::swap(whole.picture, picture); }
+  PictureAlone(const PictureAlone&) = delete;
+  PictureAlone& operator=(const PictureAlone&) = delete;
+
+  ImageRgb<T>& picture;
+  LayeredFrame<T> whole;
+};
+
+// Replaces `part` of a frame by that of another one with the same layers.
+template <class T>
+void dissolve(LayeredFrame<T>& frame, LayeredFrame<T>& vanishing, double part) {
   const auto of_other = static_cast<float>(part), of_own = 1 - of_other;
-  for (int row = 0; row < frame.height; ++row) {
-    T* own = frame.row(row);
-    const T* other = vanishing.row(row);
-    for (int k = 0; k < 3 * frame.width; ++k)
-      // Light is mixed and not brightness, as two projectors on one screen would mix it.
+  // Light is mixed and not brightness, as two projectors on one screen would mix it.
+  const auto mix = [&](auto& own, const auto& other) {
+    for (std::size_t k = 0; k < own.size(); ++k)
       own[k] = of_own * static_cast<float>(own[k]) + of_other * static_cast<float>(other[k]);
+  };
+  mix(frame.picture.pixels, vanishing.picture.pixels);
+  for (std::size_t k = 0; k < frame.layers.size(); ++k) {
+    mix(frame.layers[k].light.pixels, vanishing.layers[k].light.pixels);
+    mix(frame.layers[k].alpha, vanishing.layers[k].alpha);
+  }
+}
+
+// Sets the alpha of a row, which is 1 in the columns that the projection shows.
+template <class T>
+void fill_alpha(const ColumnRange& inside, int row, LayeredFrame<T>& frame) {
+  T* const alpha = frame.alpha.data() + static_cast<std::ptrdiff_t>(row) * frame.picture.width;
+  for (int column = 0; column < frame.picture.width; ++column)
+    alpha[column] = column >= inside.first && column <= inside.last ? T(1) : T(0);
+}
+
+// Puts the image of a face into the frame of a cubemap.
+template <class T>
+void put(const LayeredFrame<T>& image, const CubemapFace& face, LayeredFrame<T>& frame) {
+  const auto copy = [&](const auto& from, int channels, auto& to) {
+    const std::ptrdiff_t width = std::ptrdiff_t{channels} * image.picture.width,
+                         stride = std::ptrdiff_t{channels} * frame.picture.width;
+    for (int row = 0; row < image.picture.height; ++row)
+      std::copy_n(from.begin() + row * width, width,
+                  to.begin() + (face.row + row) * stride + std::ptrdiff_t{channels} * face.column);
+  };
+  copy(image.picture.pixels, 3, frame.picture.pixels);
+  for (std::size_t k = 0; k < frame.layers.size(); ++k) {
+    copy(image.layers[k].light.pixels, 3, frame.layers[k].light.pixels);
+    if (!frame.layers[k].alpha.empty()) copy(image.layers[k].alpha, 1, frame.layers[k].alpha);
   }
 }
 
@@ -72,7 +110,7 @@ void dissolve(ImageRgb<T>& frame, const ImageRgb<T>& vanishing, double part) {
 struct Renderer::Memory {
   tbb::task_arena arena;
   RayGrid grid{};
-  BlobLayer stars{Domemaster{1}};
+  BlobLayer stars{Domemaster{1}}, crowded_skies{Domemaster{1}};
   ImageLists images{};
   BandMemory bands{};
   StarLabels labels;
@@ -113,18 +151,38 @@ HalfFrame Renderer::render(const FrameState& state, StageTimes* times) {
 }
 
 void Renderer::render(const FrameState& state, HalfFrame& frame, StageTimes* times) {
-  render_exposed(state, frame, times);
+  PictureAlone<Imath::half> alone(frame);
+  render_frame(state, alone.whole, times);
 }
 
 void Renderer::render(const FrameState& state, FloatImage& frame, StageTimes* times) {
+  PictureAlone<float> alone(frame);
+  render_frame(state, alone.whole, times);
+}
+
+void Renderer::render(const FrameState& state, LayeredHalfFrame& frame, StageTimes* times) {
+  render_frame(state, frame, times);
+}
+
+void Renderer::render(const FrameState& state, LayeredFloatFrame& frame, StageTimes* times) {
+  render_frame(state, frame, times);
+}
+
+// Titles stand still while the shutter is open, and no fade of the show acts on them.
+template <class T>
+void Renderer::render_frame(const FrameState& state, LayeredFrame<T>& frame, StageTimes* times) {
   render_exposed(state, frame, times);
+  for (int row = 0; !frame.alpha.empty() && row < frame.picture.height; ++row)
+    fill_alpha(inside_columns(state.projection, row), row, frame);
+  draw_titles(show_, state, frame);
+  draw_overlays(show_, state, memory_->labels, frame);
 }
 
 // A frame with an open shutter is the mean of several instants.
 template <class T>
-void Renderer::render_exposed(const FrameState& state, ImageRgb<T>& frame, StageTimes* times) {
+void Renderer::render_exposed(const FrameState& state, LayeredFrame<T>& frame, StageTimes* times) {
   StageTimes sum;
-  sum.instants = show_.exposure.shutter > 0 ? instants_for(show_, state, optics_) : 1;
+  sum.instants = show_.exposure.shutter > 0 ? instants_for(show_, state, lenses_) : 1;
   // With a closed shutter the next instant that is seen is the next frame.  With an open one the
   // instants divide its time evenly.
   const double gap = show_.exposure.shutter > 0 ? show_.exposure.shutter / sum.instants : 1;
@@ -132,8 +190,7 @@ void Renderer::render_exposed(const FrameState& state, ImageRgb<T>& frame, Stage
     render_instant(state, gap, frame, sum);
   } else {
     MeanFrame mean;
-    for (FrameState& exposed : exposure_states(show_, state.frame, sum.instants)) {
-      take_size(state, exposed);
+    for (const FrameState& exposed : exposure_states(show_, state, sum.instants)) {
       StageTimes own;
       render_instant(exposed, gap, frame, own);
       memory_->arena.execute([&] { mean.add(frame); });
@@ -141,20 +198,17 @@ void Renderer::render_exposed(const FrameState& state, ImageRgb<T>& frame, Stage
     }
     memory_->arena.execute([&] { mean.store(frame); });
   }
-  // A title stands still while the shutter is open, and no fade of the show acts on it.
-  draw_titles(show_, state, frame);
-  draw_overlays(show_, state, memory_->labels, frame);
   if (times) *times = sum;
 }
 
 // A dissolve mixes the views of two segments.
 template <class T>
-void Renderer::render_instant(const FrameState& state, double gap, ImageRgb<T>& frame,
+void Renderer::render_instant(const FrameState& state, double gap, LayeredFrame<T>& frame,
                               StageTimes& times) {
   render_faded(state, gap, frame, times);
   if (!state.vanishing) return;
   StageTimes own;
-  ImageRgb<T> vanishing;
+  LayeredFrame<T> vanishing(layers_of(frame));
   render_faded(*state.vanishing, gap, vanishing, own);
   dissolve(frame, vanishing, state.vanishing_part);
   times.add(own);
@@ -162,7 +216,7 @@ void Renderer::render_instant(const FrameState& state, double gap, ImageRgb<T>& 
 
 // Each of the views in a dissolve has a fade of its own.
 template <class T>
-void Renderer::render_faded(const FrameState& state, double gap, ImageRgb<T>& frame,
+void Renderer::render_faded(const FrameState& state, double gap, LayeredFrame<T>& frame,
                             StageTimes& times) {
   render_view(state, gap, frame, times);
   if (state.fade < 1) fade(frame, state.fade);
@@ -171,7 +225,7 @@ void Renderer::render_faded(const FrameState& state, double gap, ImageRgb<T>& fr
 // The faces of a cubemap are images of their own, of one scene.  Stars beyond the edges of a face
 // still reach into it.
 template <class T>
-void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& frame,
+void Renderer::render_view(const FrameState& state, double gap, LayeredFrame<T>& frame,
                            StageTimes& times) {
   StopWatch watch;
   const FramePlan plan = plan_frame(show_, state);
@@ -179,37 +233,34 @@ void Renderer::render_view(const FrameState& state, double gap, ImageRgb<T>& fra
   for (const SkyRegion sky : kEverySky)
     if (skies[sky]) times.black[sky] = skies[sky]->black.luminance;
   times.load_s = watch.lap();
-  SkyMotion motion;
-  // Only images behind the hole race, so that in flat space no motion is needed.
-  if (plan.gravity) motion = {sky_turn(show_, state), gap};
-  const HoleOptics& optics = optics_.optics_for(state.observer, plan);
-  times.tables_made = optics_.tables_made();
-  times.table_nodes = node_count(optics);
+  std::shared_ptr<const Lens> lens = lens_of(state.observer, plan.wanted(), show_.effects, lenses_);
+  times.tables_made = lenses_.tables_made();
+  times.table_nodes = lenses_.table_nodes();
   // A show has one disc, whose light is tabulated once.
   if (plan.disc && !disc_light_) disc_light_.emplace(*show_.disc);
-  const std::vector<CubemapFace> faces = cubemap_faces(state.projection);
-  const FrameScene scene(show_, state, plan, optics, skies, motion,
+  // Only images behind the hole race, so that in flat space no motion is needed.
+  const SkyMotion motion = plan.gravity ? SkyMotion{state.sky_turn, gap} : SkyMotion{};
+  const FrameScene scene(show_, state, plan, std::move(lens), skies, motion,
                          plan.disc ? &*disc_light_ : nullptr);
   times.tables_s = watch.lap();
-  if (frame.width != columns(state.projection) || frame.height != rows(state.projection))
-    frame = ImageRgb<T>(columns(state.projection), rows(state.projection));
+  frame.set_size(columns(state.projection), rows(state.projection));
+  const std::vector<CubemapFace> faces = cubemap_faces(state.projection);
   // Only a cubemap has faces.
   if (faces.empty()) return render_image(scene, frame, times);
-  ImageRgb<T> image(columns(faces[0].projection), rows(faces[0].projection));
+  LayeredFrame<T> image(layers_of(frame));
+  image.set_size(columns(faces[0].projection), rows(faces[0].projection));
   for (const CubemapFace& face : faces) {
     StageTimes own;
     const FrameScene scene_of_face(scene, face);
     render_image(scene_of_face, image, own);
-    for (int row = 0; row < image.height; ++row)
-      std::copy_n(image.row(row), 3 * image.width,
-                  frame.row(face.row + row) + 3 * static_cast<std::ptrdiff_t>(face.column));
+    put(image, face, frame);
     times.add(own);
   }
 }
 
 // Renders the image of one projection that is not put together from others.
 template <class T>
-void Renderer::render_image(const FrameScene& scene, ImageRgb<T>& image, StageTimes& times) {
+void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, StageTimes& times) {
   StopWatch watch;
   // All stages run in this arena, which has as many threads as the caller asked for.
   memory_->arena.execute([&] {
@@ -219,13 +270,20 @@ void Renderer::render_image(const FrameScene& scene, ImageRgb<T>& image, StageTi
     UnresolvedSkies unresolved = find_unresolved_skies(scene);
     stars.add(unresolved.blobs);
     stars.sort_into_bands();
+    BlobLayer& crowded = memory_->crowded_skies;
+    const bool divided = !unresolved.blobs.empty() && !image.layers.empty();
+    if (divided) {
+      crowded.start(scene.projection());
+      crowded.add(unresolved.blobs);
+      crowded.sort_into_bands();
+    }
     // The blob of an unresolved sky is in the same layer as the stars, and must not be cut off at
     // the border of that sky.
     std::optional<SkyBorders> borders;
     if (scene.plan.gravity && scene.effects.lensing && unresolved.blobs.empty() &&
         stars.size() > 0) {
       // Straight light has no silhouette, and without stars there is nothing to end.
-      borders.emplace(scene.state, scene.optics, scene.tracer.vantage());
+      borders.emplace(scene.tracer, scene.projection());
       if (!borders->usable()) borders.reset();
     }
     times.images = stars.size() - unresolved.blobs.size();
@@ -241,7 +299,12 @@ void Renderer::render_image(const FrameScene& scene, ImageRgb<T>& image, StageTi
     if (bodies) times.images += bodies->size();
     times.stars_s += watch.lap();
     memory_->bands.throw_if_stopped();
-    draw_bands(scene, sky, stars, disc ? &*disc : nullptr, borders, bodies ? &*bodies : nullptr,
+    draw_bands(scene, sky,
+               {.stars = &stars,
+                .borders = borders ? &*borders : nullptr,
+                .crowded_skies = divided ? &crowded : nullptr,
+                .disc = disc ? &*disc : nullptr,
+                .bodies = bodies ? &*bodies : nullptr},
                memory_->bands, image);
     memory_->bands.throw_if_stopped();
     times.pixels_s = watch.lap();

@@ -5,13 +5,13 @@
 #include <memory>
 #include <optional>
 
-#include "pipeline/disc/disc_light.h"
-#include "pipeline/image/frame_buffer.h"
-#include "pipeline/render/scene/optics_store.h"
+#include "pipeline/image/layer.h"
+#include "pipeline/light/lens_store.h"
 #include "pipeline/render/scene/sky_store.h"
 #include "pipeline/render/sky/anti_aliasing_settings.h"
 #include "pipeline/render/stage_times.h"
 #include "pipeline/show/frame_state.h"
+#include "pipeline/sources/disc/disc_light.h"
 
 namespace domefall {
 
@@ -27,9 +27,7 @@ class Renderer {
                     SkyDetail detail = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
-  Renderer(Renderer&&) = delete;
   Renderer& operator=(const Renderer&) = delete;
-  Renderer& operator=(Renderer&&) = delete;
 
   // Renders a frame.  It has the same bytes for any number of threads, alone or in a run.  Values
   // beyond the largest half (65504) are stored as the largest.  Throws InputError if an asset
@@ -41,6 +39,9 @@ class Renderer {
   void render(const FrameState& state, HalfFrame& frame, StageTimes* times = nullptr);
   // Renders in full precision, so that values beyond the largest half are kept.
   void render(const FrameState& state, FloatImage& frame, StageTimes* times = nullptr);
+  // Renders the picture and those layers that the frame has, whatever their size was.
+  void render(const FrameState& state, LayeredHalfFrame& frame, StageTimes* times = nullptr);
+  void render(const FrameState& state, LayeredFloatFrame& frame, StageTimes* times = nullptr);
 
   // From now on render() throws RenderStopped (frame_bands.h) soon after the flag is set, either
   // between two stages or amid the drawing.  With null it runs to its end again.  The flag must
@@ -66,21 +67,24 @@ class Renderer {
   // Each of these functions renders by way of the next one, for T = Imath::half and float.  `gap`
   // is the time to the next instant that is seen, in frames.
   template <class T>
-  void render_exposed(const FrameState& state, ImageRgb<T>& frame, StageTimes* times);
+  void render_frame(const FrameState& state, LayeredFrame<T>& frame, StageTimes* times);
   template <class T>
-  void render_instant(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
+  void render_exposed(const FrameState& state, LayeredFrame<T>& frame, StageTimes* times);
   template <class T>
-  void render_faded(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
+  void render_instant(const FrameState& state, double gap, LayeredFrame<T>& frame,
+                      StageTimes& times);
   template <class T>
-  void render_view(const FrameState& state, double gap, ImageRgb<T>& frame, StageTimes& times);
+  void render_faded(const FrameState& state, double gap, LayeredFrame<T>& frame, StageTimes& times);
   template <class T>
-  void render_image(const FrameScene& scene, ImageRgb<T>& image, StageTimes& times);
+  void render_view(const FrameState& state, double gap, LayeredFrame<T>& frame, StageTimes& times);
+  template <class T>
+  void render_image(const FrameScene& scene, LayeredFrame<T>& image, StageTimes& times);
 
   const Show& show_;
   AntiAliasing anti_aliasing_;
   SkyStore skies_;
   std::optional<DiscLight> disc_light_;  // made when a disc is first seen
-  OpticsStore optics_;
+  LensStore lenses_;
   std::unique_ptr<Memory> memory_;
 };
 

@@ -1,13 +1,15 @@
 #include "pipeline/render/shutter.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "pipeline/base/simd/half_row.h"
 #include "pipeline/render/scene/body_sight.h"
-#include "pipeline/simd/half_row.h"
+#include "pipeline/render/scene/frame_plan.h"
 #include "projections/projection.h"
 
 namespace domefall {
@@ -45,13 +47,14 @@ double motion_of_bodies(const Show& show, const FrameState& from, const FrameSta
 
 // Returns the motion in pixels between two instants, of the sky or of a body, whichever is larger.
 double motion_between(const Show& show, const FrameState& from, const FrameState& to,
-                      OpticsStore& optics) {
-  // The store keeps the optics of one radius only, so those of the first state are copied.
-  const HoleOptics first = optics.optics_for(from.observer, plan_frame(show, from));
-  const HoleOptics& second = optics.optics_for(to.observer, plan_frame(show, to));
-  return std::max(motion_in_pixels(from, ViewTracer(from, first, show.effects), to,
-                                   ViewTracer(to, second, show.effects)),
-                  motion_of_bodies(show, from, to));
+                      LensStore& lenses) {
+  const auto tracer = [&](const FrameState& state) {
+    const WantedSkies wanted = plan_frame(show, state).wanted();
+    return ViewTracer(state, lens_of(state.observer, wanted, show.effects, lenses), show.effects);
+  };
+  // In this order, in which the store has the tables of `to` for the next pair.
+  const ViewTracer first = tracer(from), second = tracer(to);
+  return std::max(motion_in_pixels(from, first, to, second), motion_of_bodies(show, from, to));
 }
 
 }  // namespace
@@ -69,14 +72,12 @@ double motion_in_pixels(const FrameState& from, const ViewTracer& tracer_from, c
       const ViewRay a = tracer_from.trace(direction_at(from.projection, pixel));
       const ViewRay b = tracer_to.trace(direction_at(to.projection, pixel));
       if (!a.known || !b.known || a.sky != b.sky) continue;
-      const double longer = std::max(a.radial_scale, a.tangential_scale);
-      const double shorter = std::min(a.radial_scale, a.tangential_scale);
       // A pixel that is stretched has two sides, whose product is its solid angle.
       const double side = pixel_angle(from.projection, pixel);
       const double other = pixel_solid_angle(from.projection, pixel) / side;
       // The motion on the sky is divided by the least width of a pixel's footprint there.
       motions.push_back((a.sky_direction - b.sky_direction).length() /
-                        (std::min(side, other) * std::max(shorter, kNarrowest * longer)));
+                        (std::min(side, other) * std::max(a.shorter(), kNarrowest * a.longer())));
     }
   if (motions.empty()) return 0;
   // nth_element() puts at this place the motion that the part kExceeding of all others exceed.
@@ -96,49 +97,72 @@ int instants_for_motion(double motion_in_pixels) {
 
 // The motion is summed over the middles of the four quarters of the exposure, between which lie
 // three quarters of the whole motion.
-int instants_for(const Show& show, const FrameState& state, OpticsStore& optics) {
+int instants_for(const Show& show, const FrameState& state, LensStore& lenses) {
   constexpr int kParts = 4;
-  std::vector<FrameState> states = exposure_states(show, state.frame, kParts);
-  for (FrameState& exposed : states) take_size(state, exposed);
+  const std::vector<FrameState> states = exposure_states(show, state, kParts);
   double motion = 0, vanishing_motion = 0;
   for (std::size_t k = 1; k < states.size(); ++k) {
-    motion += motion_between(show, states[k - 1], states[k], optics);
+    motion += motion_between(show, states[k - 1], states[k], lenses);
     if (states[k - 1].vanishing && states[k].vanishing)
       vanishing_motion +=
-          motion_between(show, *states[k - 1].vanishing, *states[k].vanishing, optics);
+          motion_between(show, *states[k - 1].vanishing, *states[k].vanishing, lenses);
   }
   return instants_for_motion(std::max(motion, vanishing_motion) * kParts / (kParts - 1));
 }
 
+namespace {
+
+// Calls use(first, end) for pieces of a plane, by all threads.
+template <class Use>
+void each_piece(std::size_t size, const Use& use) {
+  constexpr std::size_t kPiece = 1 << 15;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size, kPiece),
+                    [&](const auto& range) { use(range.begin(), range.end()); });
+}
+
+void store_mean(const float* sum, float share, std::size_t count, float* to) {
+  std::transform(sum, sum + count, to, [share](float value) { return value * share; });
+}
+void store_mean(const float* sum, float share, std::size_t count, Imath::half* to) {
+  std::vector<float> mean(count);
+  store_mean(sum, share, count, mean.data());
+  to_half(mean.data(), static_cast<int>(count), reinterpret_cast<std::uint16_t*>(to));
+}
+
+}  // namespace
+
 template <class T>
-void MeanFrame::add(const ImageRgb<T>& instant) {
-  // The first instant says how large the sum is.
-  if (count_++ == 0) sum_ = FloatImage(instant.width, instant.height);
-  tbb::parallel_for(0, instant.height, [&](int row) {
-    const T* from = instant.row(row);
-    float* to = sum_.row(row);
-    for (int k = 0; k < 3 * instant.width; ++k) to[k] += from[k];
-  });
+void MeanFrame::add(LayeredFrame<T>& instant) {
+  std::size_t plane = 0;
+  const auto add_plane = [&](const auto& values) {
+    if (count_ == 0) sums_.emplace_back(values.size());
+    std::vector<float>& sum = sums_[plane++];
+    each_piece(sum.size(), [&](std::size_t first, std::size_t end) {
+      for (std::size_t k = first; k < end; ++k) sum[k] += values[k];
+    });
+  };
+  instant.each_light(add_plane);
+  instant.each_alpha(add_plane);
+  ++count_;
 }
 
-template void MeanFrame::add(const HalfFrame&);
-template void MeanFrame::add(const FloatImage&);
-
-void MeanFrame::store(FloatImage& frame) const {
+template <class T>
+void MeanFrame::store(LayeredFrame<T>& frame) const {
   const float share = 1 / static_cast<float>(count_);
-  tbb::parallel_for(0, frame.height, [&](int row) {
-    std::transform(sum_.row(row), sum_.row(row) + static_cast<std::ptrdiff_t>(3) * frame.width,
-                   frame.row(row), [share](float sum) { return sum * share; });
-  });
+  std::size_t plane = 0;
+  const auto store_plane = [&](auto& values) {
+    const std::vector<float>& sum = sums_[plane++];
+    each_piece(sum.size(), [&](std::size_t first, std::size_t end) {
+      store_mean(sum.data() + first, share, end - first, values.data() + first);
+    });
+  };
+  frame.each_light(store_plane);
+  frame.each_alpha(store_plane);
 }
 
-void MeanFrame::store(HalfFrame& frame) const {
-  const float share = 1 / static_cast<float>(count_);
-  tbb::parallel_for(0, frame.height, [&](int row) {
-    std::vector<float> mean(static_cast<std::size_t>(frame.width) * 3);
-    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] = sum_.row(row)[k] * share;
-    to_half(mean.data(), 3 * frame.width, reinterpret_cast<std::uint16_t*>(frame.row(row)));
-  });
-}
+template void MeanFrame::add(LayeredHalfFrame&);
+template void MeanFrame::add(LayeredFloatFrame&);
+template void MeanFrame::store(LayeredHalfFrame&) const;
+template void MeanFrame::store(LayeredFloatFrame&) const;
 
 }  // namespace domefall

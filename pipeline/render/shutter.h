@@ -1,9 +1,11 @@
 // Computes motion blur: a frame is the mean of several instants while its shutter is open.
 #pragma once
 
-#include "pipeline/image/frame_buffer.h"
+#include <vector>
+
+#include "pipeline/image/layer.h"
+#include "pipeline/light/lens_store.h"
 #include "pipeline/render/rays/view_tracer.h"
-#include "pipeline/render/scene/optics_store.h"
 
 namespace domefall {
 
@@ -24,19 +26,20 @@ int instants_for_motion(double motion_in_pixels);
 
 // Returns the number of instants for the motion during a frame's exposure.  In a dissolve the view
 // with the longer motion counts.  The show must have an open shutter.
-int instants_for(const Show& show, const FrameState& state, OpticsStore& optics);
+int instants_for(const Show& show, const FrameState& state, LensStore& lenses);
 
-// A MeanFrame is the mean of frames of one size.  T is Imath::half or float.
+// A MeanFrame is the mean of frames of one size, and of each of their layers.  T is Imath::half or
+// float.
 class MeanFrame {
  public:
   template <class T>
-  void add(const ImageRgb<T>& instant);
-  void store(HalfFrame& frame) const;
-  void store(FloatImage& frame) const;
+  void add(LayeredFrame<T>& instant);
+  template <class T>
+  void store(LayeredFrame<T>& frame) const;
 
  private:
   int count_ = 0;
-  FloatImage sum_;
+  std::vector<std::vector<float>> sums_;  // in the order of each_light() and each_alpha()
 };
 
 }  // namespace domefall

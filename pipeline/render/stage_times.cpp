@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "pipeline/simd/dispatch.h"
+#include "pipeline/base/simd/dispatch.h"
 
 namespace domefall {
 

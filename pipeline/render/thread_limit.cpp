@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace domefall {
 namespace {
@@ -68,9 +68,11 @@ void require_threads(int threads) {
         there, count));
 }
 
-void end_in_words_without_threads() {
-  static const std::terminate_handler before = std::set_terminate(terminate);
-  (void)before;
+int all_threads(int given) {
+  // The system may not know the number of its processors, which then counts as 0.
+  return given > 0 ? given : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
+
+void install_terminate_handler() { std::set_terminate(terminate); }
 
 }  // namespace domefall

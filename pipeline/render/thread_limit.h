@@ -12,8 +12,11 @@ inline constexpr int kTryAgain = 75;
 // libraries end the program, or wait for ever, where they cannot start a thread.
 void require_threads(int threads);
 
+// Returns the number of threads that --threads asks for, where 0 stands for one per processor.
+int all_threads(int given);
+
 // From now on, where a library ends the program because a thread cannot be started after all, the
 // program says so and exits with kTryAgain.  Any other such end stays as it is.
-void end_in_words_without_threads();
+void install_terminate_handler();
 
 }  // namespace domefall

@@ -1,15 +1,16 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/report/machine.h"
 #include "pipeline/report/report.h"
 #include "pipeline/report/text.h"
 
 namespace domefall {
 namespace {
+
+constexpr const char* kCostsText =
+#include "pipeline/report/costs_page.inc"
+    ;
 
 constexpr double kMilli = 1e3, kNano = 1e9;  // in a second
 using Counted = double FrameCostRow::*;
@@ -24,63 +25,38 @@ std::vector<std::string> scenes_of(const std::vector<FrameCostRow>& rows) {
   return scenes;
 }
 
-// The last column is the cost of each further star or pixel since the row before.
-std::string cost_table(const std::vector<FrameCostRow>& rows, Counted counted, const char* unit) {
-  std::string table = fmt::format(
-      "| scene | dome | stars | ms | copies | ns per pixel | ns per further {} |\n"
-      "|---|---|---|---|---|---|---|\n",
-      unit);
+// Returns a table against stars or pixels, the slope over all rows of each scene, and the largest
+// rise of the slope from row to row.  The last column is the cost of each further star or pixel
+// since the row before.
+std::string cost_part(const std::vector<FrameCostRow>& rows, Counted counted,
+                      const std::string& unit) {
   const std::vector<CostSlope> found = slopes(rows, counted);
-  for (const FrameCostRow& row : rows) {
+  const auto line = [&](const FrameCostRow& row) {
     // A slope stands in the row at its upper end, whose number it has copied.
-    const auto slope = std::find_if(found.begin(), found.end(), [&](const CostSlope& s) {
-      return s.scene == row.scene && s.to == row.*counted;
-    });
-    table += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.scene, row.size,
-                         count(row.stars), amount(kMilli * row.seconds), amount(row.copies),
-                         amount(kNano * row.seconds / row.pixels),
-                         slope == found.end() ? "" : amount(slope->ns));
-  }
-  return table + "\n";
-}
-
-// States the slope over all rows of each scene, and the largest rise of the slope from row to row.
-std::string slopes_in_words(const std::vector<FrameCostRow>& rows, Counted counted,
-                            const std::string& unit) {
-  std::string text;
-  for (const std::string& scene : scenes_of(rows))
-    text += fmt::format("* {}: {} ns for each further {}, from the first row to the last\n", scene,
-                        amount(mean_slope(rows, counted, scene)), unit);
-  const auto rise = steepest_rise(slopes(rows, counted));
+    const auto slope = std::ranges::find_if(
+        found, [&](const CostSlope& s) { return s.scene == row.scene && s.to == row.*counted; });
+    return table_line(row.scene, row.size, count(row.stars), amount(kMilli * row.seconds),
+                      amount(row.copies), amount(kNano * row.seconds / row.pixels),
+                      slope == found.end() ? "" : amount(slope->ns));
+  };
+  std::string text = fmt::format(
+      "| scene | dome | stars | ms | copies | ns per pixel | ns per further {} |\n"
+      "|---|---|---|---|---|---|---|\n{}\n",
+      unit, lines_of(rows, line));
+  text += lines_of(scenes_of(rows), [&](const std::string& scene) {
+    return fmt::format("* {}: {} ns for each further {}, from the first row to the last\n", scene,
+                       amount(mean_slope(rows, counted, scene)), unit);
+  });
+  const auto rise = steepest_rise(found);
   if (!rise)
     return text +
            "\nThese frames are too small for a slope from row to row: one is below what can be "
            "timed.\n\n";
-  return fmt::format(
-      "{}\nA cliff would be a slope many times the one before it. **The largest ratio of a slope "
-      "to "
-      "the one before is {:.2f}** ({}, at {} {}s).\n\n",
-      text, rise->ratio, rise->scene, count(rise->at), unit);
-}
-
-// Returns the part on stars.  Their background is black, so that the time of a sky does not hide
-// theirs.
-std::string stars(const std::vector<FrameCostRow>& rows) {
-  return "## By the number of stars\n\nThe brightest stars of a made-up sky with as many of each "
-         "magnitude as Tycho-2 has, in front of nothing.\nFalling at 7 M, every image that matters "
-         "of every star is found and drawn.\n\n" +
-         cost_table(rows, &FrameCostRow::stars, "star") +
-         slopes_in_words(rows, &FrameCostRow::stars, "star") +
-         "![time against stars](plots/costs_stars.svg)\n\n";
-}
-
-std::string pixels(const std::vector<FrameCostRow>& rows) {
-  return "## By the number of pixels\n\nFalling at 7 M, looking at the hole. Pixels are those "
-         "inside "
-         "the dome. A larger dome is sharper, and\nits sky map's finer levels are read.\n\n" +
-         cost_table(rows, &FrameCostRow::pixels, "pixel") +
-         slopes_in_words(rows, &FrameCostRow::pixels, "pixel") +
-         "![time against pixels](plots/costs_pixels.svg)\n\n";
+  return text +
+         fmt::format(
+             "\nA cliff would be a slope many times the one before it. **The largest ratio of a "
+             "slope to the one before is {:.2f}** ({}, at {} {}s).\n\n",
+             rise->ratio, rise->scene, count(rise->at), unit);
 }
 
 // ---- Against other ways ----
@@ -170,48 +146,26 @@ std::string against_supersampling(const std::vector<FrameErrorRow>& rows) {
       worse.empty() ? "" : "; the others, as times its error: " + worse);
 }
 
-// Returns the table of the paper's own task.  The paper's minute is of a processor of its time, so
-// the page quotes it and draws no ratio.
-std::string benchmark(const std::vector<FrameErrorRow>& rows) {
-  std::string text =
-      "\n### The paper's picture\n\n\"Typical images of one million pixel initially computed at a "
-      "twice larger resolution and then smoothed needed\nin the first versions of our code needed "
-      "one minute of single CPU time\" ([Riazuelo] sec. sec_data), with the\n250,000 stars of the "
-      "Henry Draper catalogue. Here, on one thread, files read before; the errors are of the sky "
-      "without\nits stars against 256 view rays in every pixel:\n\n| scene | pixels | setting | "
-      "rms | "
-      "worst | ms | copies |\n|---|---|---|---|---|---|---|\n";
-  for (const FrameErrorRow& r : rows)
-    text += fmt::format("| {0} | {1} x {1} | {2} | {3:.1e} | {4} | {5} | {6} |\n", r.scene, r.size,
-                        r.setting, r.rms, amount(r.worst), amount(kMilli * r.seconds),
-                        amount(r.copies));
-  return text + "\n";
+// The paper's minute is of a processor of its time, so the page quotes it and draws no ratio.
+std::string benchmark_line(const FrameErrorRow& r) {
+  return table_line(r.scene, fmt::format("{0} x {0}", r.size), r.setting, error_text(r.rms),
+                    amount(r.worst), amount(kMilli * r.seconds), amount(r.copies));
 }
 
 }  // namespace
 
+// The background of the frames against stars is black, so that the time of a sky does not hide
+// theirs.
 std::string costs_page(const Report& report) {
   const FrameCosts& costs = report.costs;
   return fmt::format(
-             "# What a frame costs\n\n`domefall report{}` made this page, like "
-             "[accuracy.md](accuracy.md). That run measured every number below but\nthose that say "
-             "what was rendered and those that are quoted: the time taken as the measure of a "
-             "table "
-             "in two\ndimensions, and what the paper says of its pictures.\n\n{}"
-             "Whole frames with the default settings, on one thread, in CPU time and in copies of "
-             "the "
-             "frame's own memory, the\nquickest of several renderings into the same memory; files "
-             "are "
-             "read "
-             "before. A small frame's copy stays in the processor's cache, and is quicker by the "
-             "pixel. "
-             "All rows:\n[costs.csv](costs.csv), [benchmark.csv](benchmark.csv). What its files "
-             "cost: "
-             "docs/file_costs.md.\n\n",
-             report.quick ? " --quick" : "", machine_table()) +
-         stars(costs.stars) + pixels(costs.pixels) + "## Against other ways\n\n" +
-         against_rk4(report) + against_table_walk(report.view_rays) +
-         against_supersampling(report.frames) + benchmark(costs.benchmark);
+      fmt::runtime(kCostsText), fmt::arg("quick", report.quick ? " --quick" : ""),
+      fmt::arg("machine", machine_table()),
+      fmt::arg("stars", cost_part(costs.stars, &FrameCostRow::stars, "star")),
+      fmt::arg("pixels", cost_part(costs.pixels, &FrameCostRow::pixels, "pixel")),
+      fmt::arg("other_ways", against_rk4(report) + against_table_walk(report.view_rays) +
+                                 against_supersampling(report.frames)),
+      fmt::arg("benchmark", lines_of(costs.benchmark, benchmark_line)));
 }
 
 }  // namespace domefall

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <numbers>
 
-#include "pipeline/image/errors.h"
-#include "pipeline/image/scratch_folder.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/temporary_file.h"
 #include "pipeline/report/frame_timing.h"
 #include "pipeline/report/made_up_stars.h"
-#include "pipeline/show/read_show.h"
-#include "pipeline/sky/catalogue/star_file.h"
+#include "pipeline/show/file/read_show.h"
+#include "pipeline/sources/stars/star_file.h"
 
 namespace domefall {
 namespace {
@@ -65,7 +65,7 @@ class Shows {
         "timeline:\n  - {{duration_s: 1{}}}\n",
         flat ? "" : "black_hole: {mass_solar: 4.3e6}\n",
         flat ? "{ra_deg: 266.417, dec_deg: -29.008}" : "hole",
-        std::holds_alternative<Domemaster>(projection) ? ", elevation_deg: 45" : "",
+        has_zenith(projection) ? ", elevation_deg: 45" : "",
         background == Background::kBlack ? "black" : "milky_way", stars > 0 ? limit : "none",
         flat ? "" : ", trajectory: {type: infall, from_r: 7}")));
     read.projection = projection;

@@ -61,6 +61,7 @@ Show show_of_view(const View& view, int size) {
   // radius is L/r with L = sqrt(27) E and E = sqrt(1 - 2/r).
   constexpr double kFlatView = 24 * kDegree;
   Show show;
+  show.spacetime = Schwarzschild{};
   if (view.dome)
     show.projection = Domemaster{size};
   else

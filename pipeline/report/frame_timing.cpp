@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <limits>
+
+#include "pipeline/base/stop_watch.h"
 
 namespace domefall {
 namespace {
 
 constexpr double kWhite = 65535;  // in graded frames
-
-// Returns the CPU time of all threads.  It wraps after 71 minutes where clock_t has 32 bits.
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
 
@@ -20,9 +18,9 @@ TimedFrame time_frame(Renderer& renderer, const FrameState& state, Repeats repea
   TimedFrame best{{}, std::numeric_limits<double>::infinity()};
   double spent = 0;
   for (int k = 0; k < repeats.most && (k < 2 || spent < repeats.enough_s); ++k) {
-    const double start = cpu_seconds();
+    const double start = processor_seconds();
     renderer.render(state, best.frame);
-    const double took = cpu_seconds() - start;
+    const double took = processor_seconds() - start;
     best.seconds = std::min(best.seconds, took);
     spent += k == 0 ? 0 : took;
   }
@@ -46,12 +44,12 @@ double copy_seconds(const HalfFrame& frame) {
       0;  // reading a value keeps the copy from being optimised away
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t row = 0; row < kRows; ++row) {
-    const double start = cpu_seconds();
+    const double start = processor_seconds();
     for (std::size_t k = 0; k < copies; ++k) {
       std::memcpy(copy.pixels.data(), frame.pixels.data(), bytes);
       seen = copy.pixels[k * 997 % copy.pixels.size()];
     }
-    best = std::min(best, (cpu_seconds() - start) / static_cast<double>(copies));
+    best = std::min(best, (processor_seconds() - start) / static_cast<double>(copies));
   }
   return best;
 }

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "pipeline/sky/catalogue/raw_catalogue.h"
+#include "pipeline/sources/stars/raw_catalogue.h"
 
 namespace domefall {
 

@@ -23,7 +23,7 @@ struct OrbitErrorRow {
   double seconds;    // CPU, for a thousand states one after another
 };
 
-// Measures every orbit of orbit_cases.h by every method that it has.  This takes 0.3 s if quick,
+// Measures some orbits of every kind, each by every method that it has.  This takes 0.3 s if quick,
 // else 1.8 s.
 std::vector<OrbitErrorRow> measure_orbits(bool quick);
 

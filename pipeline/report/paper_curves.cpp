@@ -1,12 +1,11 @@
-#include "pipeline/report/paper_curves.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/optics/traced_ray.h"
+#include "pipeline/light/traced_ray.h"
+#include "pipeline/report/report.h"
 
 namespace domefall {
 namespace {

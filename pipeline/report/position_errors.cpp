@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 
-#include "pipeline/optics/ray_times.h"
+#include "pipeline/base/stop_watch.h"
+#include "pipeline/light/ray_times.h"
 #include "pipeline/report/ray_samples.h"
 #include "pipeline/report/reference/reference_position.h"
-#include "pipeline/report/reference_request.h"
 
 namespace domefall {
 namespace {
@@ -61,10 +60,10 @@ PositionErrorRow measured_errors(bool at_edge, const std::vector<SamplePlace>& p
   if (tolerance > 0) options.tolerance = tolerance;
   std::vector<std::optional<TracedPlace>> found;
   found.reserve(places.size());
-  const auto start = std::chrono::steady_clock::now();
+  const StopWatch watch;
   for (const SamplePlace& place : places)
     found.push_back(trace_place(place.request, place.psi, by.method, options));
-  const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - start;
+  const double seconds = watch.seconds();
   std::vector<double> of_r, of_time;
   for (std::size_t k = 0; k < places.size(); ++k) {
     // A place that is not found has no error and is counted as missing.
@@ -81,7 +80,7 @@ PositionErrorRow measured_errors(bool at_edge, const std::vector<SamplePlace>& p
           static_cast<int>(places.size() - of_r.size()),
           summary(of_r),
           summary(of_time),
-          passed.count() / static_cast<double>(places.size())};
+          1e9 * seconds / static_cast<double>(places.size())};
 }
 
 // Returns the wall-clock time of `work` for one ray of a full batch, by the best of several passes.
@@ -91,13 +90,11 @@ double best_ns_of_a_ray(Work work) {
   constexpr int kRounds = 200, kPasses = 7;
   double best = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < kPasses; ++pass) {
-    const auto start = std::chrono::steady_clock::now();
+    const StopWatch watch;
     for (int round = 0; round < kRounds; ++round) work();
-    const std::chrono::duration<double, std::nano> passed =
-        std::chrono::steady_clock::now() - start;
-    best = std::min(best, passed.count());
+    best = std::min(best, watch.seconds());
   }
-  return best / (kRounds * RayOrbits::kSize);
+  return 1e9 * best / (kRounds * RayOrbits::kSize);
 }
 
 }  // namespace

@@ -1,18 +1,15 @@
 #include "pipeline/report/ray_errors.h"
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "pipeline/base/stop_watch.h"
+#include "pipeline/render/rays/view_tracer.h"
+
 namespace domefall {
 namespace {
-
-using SteadyClock = std::chrono::steady_clock;
-
-double nanoseconds_since(SteadyClock::time_point start) {
-  return std::chrono::duration<double, std::nano>(SteadyClock::now() - start).count();
-}
 
 struct Pass {
   std::vector<FollowedRay> rays;
@@ -25,9 +22,9 @@ Pass trace_group(const RayGroup& group, const RayMethod& method, double setting)
   Pass pass;
   // The memory is taken before the clock starts.
   pass.rays.reserve(group.size());
-  const SteadyClock::time_point start = SteadyClock::now();
+  const StopWatch watch;
   for (const SampleRay& ray : group) pass.rays.push_back(method.follow(ray.request, setting));
-  pass.ns = nanoseconds_since(start);
+  pass.ns = 1e9 * watch.seconds();
   return pass;
 }
 
@@ -68,6 +65,94 @@ struct Errors {
     std::sort(sky.begin(), sky.end());
   }
 };
+
+// Returns what trace_ray() finds, without what the report does not compare.
+FollowedRay follow(const RayRequest& q, TraceMethod method, const TraceOptions& options) {
+  const TracedRay ray = trace_ray(q, method, options);
+  return {ray.decided ? std::optional(ray.origin) : std::nullopt, ray.phi};
+}
+
+// Follows a ray by tables of 2^bits intervals to the octave.  The setting is a double here, like
+// that of any method.
+FollowedRay by_table(const RayRequest& q, double bits) {
+  TraceOptions options;
+  options.table_bits = static_cast<int>(bits);
+  return follow(q, TraceMethod::kTable, options);
+}
+
+FollowedRay by_integral(const RayRequest& q, double) { return follow(q, TraceMethod::kExact, {}); }
+
+FollowedRay by_steps(const RayRequest& q, TraceMethod method, double tolerance) {
+  TraceOptions options;
+  options.tolerance = tolerance;
+  options.slope = false;  // an integrator would follow four more rays to find it
+  return follow(q, method, options);
+}
+
+// Returns the bits of the tables to compare.  The error falls with the eighth power of the
+// intervals' width (octave_curve.h), so each bit divides it by up to 256.  Two bits beyond the
+// default are enough to show where rounding takes over.
+std::vector<double> table_bits(bool quick) {
+  constexpr int kDefault = OctaveCurve::kPerOctaveBits;
+  if (quick) return {1, kDefault};
+  return {0, 1, 2, kDefault, kDefault + 1, kDefault + 2};
+}
+
+const double kDefaultTolerance = TraceOptions{}.tolerance;
+
+// Returns the tolerances of a step, from coarse to fine, the order that the accuracy page relies
+// on.  The last is the finest that integrate_ray() takes.
+std::vector<double> tolerances(bool quick) {
+  if (quick) return {1e-5, kDefaultTolerance};
+  return {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13};
+}
+
+struct Observer {
+  const char* name;
+  Region region;
+  Tetrad tetrad;
+  double r;
+};
+constexpr std::array kObservers{
+    Observer{"region I, free fall at 10 M", Region::kI, Tetrad::kRain, 10},
+    Observer{"region II, free fall at 0.5 M", Region::kII, Tetrad::kRain, 0.5},
+    Observer{"region IV, outward at 1 M", Region::kIV, Tetrad::kOutgoing, 1}};
+
+// A dome of this size has some 51,000 pixels, pi/4 of its square, which are 400 full batches.  Each
+// pass traces all of them.
+constexpr int kSize = 256, kPasses = 7;
+
+// Returns the time of one view ray.  The quickest pass counts, because whatever else the machine
+// does can only lengthen a pass.
+double nanoseconds(const Observer& observer) {
+  FrameState state;
+  state.projection = Domemaster{kSize};
+  state.observer.spacetime = Schwarzschild{};
+  state.observer.region = observer.region;
+  state.observer.tetrad = observer.tetrad;
+  state.observer.r = observer.r;
+  // Every sky that the observer sees has a table, so every view ray is looked up in one.
+  const ViewTracer tracer(state, WantedSkies{{true, true, true}});
+  // The directions are collected first, so that tracing alone is timed.
+  std::vector<CameraDirection> directions;
+  for (int row = 0; row < kSize; ++row) {
+    const ColumnRange inside = inside_columns(state.projection, row);
+    for (int i = inside.first; i <= inside.last; ++i)
+      directions.push_back(direction_at(state.projection, {i + 1.0, row + 1.0}));
+  }
+  ViewRayBatch batch;
+  double best = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const StopWatch watch;
+    for (std::size_t k = 0; k < directions.size(); k += ViewRayBatch::kSize) {
+      const auto count =
+          static_cast<int>(std::min<std::size_t>(ViewRayBatch::kSize, directions.size() - k));
+      tracer.trace(directions.data() + k, count, batch);
+    }
+    best = std::min(best, 1e9 * watch.seconds());
+  }
+  return best / static_cast<double>(directions.size());
+}
 
 }  // namespace
 
@@ -116,6 +201,27 @@ std::vector<RayErrorRow> measure_rays(bool quick) {
       for (const double setting : method.settings)
         rows.push_back(measure_class(of, groups, method, setting, repeats));
   }
+  return rows;
+}
+
+std::vector<RayMethod> compared_methods(bool quick) {
+  std::vector<RayMethod> methods{
+      {"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits, true, by_table},
+      {"exact", "", {0}, 0, false, by_integral}};
+  for (const auto& [name, method] : kTraceMethods)
+    if (is_integrator(method))  // the two others stand in the list already
+      methods.push_back({name, "tolerance", tolerances(quick), kDefaultTolerance, false,
+                         [method = method](const RayRequest& q, double tolerance) {
+                           return by_steps(q, method, tolerance);
+                         }});
+  return methods;
+}
+
+std::vector<ViewRaySpeedRow> measure_view_ray_speed() {
+  std::vector<ViewRaySpeedRow> rows;
+  rows.reserve(kObservers.size());
+  for (const Observer& observer : kObservers)
+    rows.push_back({observer.name, nanoseconds(observer)});
   return rows;
 }
 

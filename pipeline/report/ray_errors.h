@@ -1,14 +1,45 @@
 // measure_rays() gives error against run time of every method of following a ray, by the observer's
-// region and the kind of difficulty.  The truth is reference_ray().
+// region and the kind of difficulty.  The truth is reference_ray().  A new method needs to be added to
+// the list of compared_methods() only.  measure_view_ray_speed() says what a view ray costs in a
+// frame, where 128 of them are traced together from the camera to the sky, with aberration, table,
+// redshift and footprint.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "pipeline/report/compared_methods.h"
+#include "pipeline/light/traced_ray.h"
 #include "pipeline/report/ray_samples.h"
 
 namespace domefall {
+
+struct FollowedRay {
+  std::optional<SkyRegion> origin;  // none if the method does not decide
+  double phi;                       // swept azimuth, radians
+};
+
+// A RayMethod is one way to follow a ray, with the settings at which the report tries it.
+struct RayMethod {
+  std::string name;              // as in `domefall trace --method`
+  std::string setting_name;      // bits of a table, tolerance of a step, or empty
+  std::vector<double> settings;  // at least one
+  double default_setting;        // one of them
+  bool keeps_tables;             // whether the first ray at a radius builds tables for all others
+  std::function<FollowedRay(const RayRequest&, double setting)> follow;
+};
+
+// Returns the methods.  If quick, none of them has more than two settings.
+std::vector<RayMethod> compared_methods(bool quick);
+
+struct ViewRaySpeedRow {
+  std::string from;  // the observer
+  double ns;         // wall clock for one view ray on one thread, by the best of several passes
+};
+
+// Measures view rays with every sky lit.  This takes about 0.2 s.
+std::vector<ViewRaySpeedRow> measure_view_ray_speed();
 
 struct RayErrorRow {
   std::string region, difficulty, method;

@@ -5,9 +5,16 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/optics/traced_ray.h"
+#include "pipeline/light/traced_ray.h"
+#include "pipeline/report/reference/reference_ray.h"
 
 namespace domefall {
+
+// Returns a request for the same ray, whose numbers have the exact values of the doubles.  Where
+// the distance from the horizon or from the light circle gives r more finely, r is taken from that.
+ReferenceRequest reference_request(const RayRequest& q);
+
+SkyRegion origin_from(ReferenceOrigin origin);
 
 enum class Difficulty {
   kOrdinary,  // any angle; r from 0.1 to 100 M, but not within 0.05 M of the horizon

@@ -12,7 +12,6 @@
 #include "pipeline/report/plot.h"
 #include "pipeline/report/position_errors.h"
 #include "pipeline/report/ray_errors.h"
-#include "pipeline/report/view_ray_speed.h"
 
 namespace domefall {
 
@@ -33,6 +32,17 @@ struct Report {
 // minutes.  Throws InputError if a shipped asset cannot be read.
 Report measure_report(bool quick, const std::function<void(const std::string&)>& progress);
 
+// Timings compare only within one machine, so the pages say on which one they were measured.
+struct Machine {
+  std::string processor;  // its model, as the system calls it
+  unsigned cores;         // logical processors, as the system counts them
+  std::string compiler;
+  std::string version;  // of Domefall
+  std::string date;     // of today, in UTC
+};
+Machine this_machine();
+std::string machine_table();  // in Markdown
+
 // Returns a table in CSV, with a line of column names and one line for each row.  The columns are
 // the members of the row's structure.
 std::string csv_of(const std::vector<RayErrorRow>& rows);
@@ -51,6 +61,14 @@ std::vector<NamedPlot> error_plots(const Report& report);
 
 // Returns the plots of cost against size, which are named costs_stars and costs_pixels.
 std::vector<NamedPlot> cost_plots(const FrameCosts& costs);
+
+// Returns the curves of [Riazuelo]'s figures, from the tables that frames are rendered with.
+// Each plot is named by the LaTeX label of its figure.  fig_dev, dev_III, dev_wh_0 and dev_wh show
+// the deviation function phi_infinity(delta) for delta from 0 to 2 pi.  It has the paper's sign: in
+// flat space phi_infinity = delta - pi.  So the function is minus the swept azimuth for delta < pi,
+// and it is odd about pi.  fig_IV_dev shows the swept azimuth with the sign of L, as the paper
+// does.  fig_delta_ee shows which sky is seen at which angle from the front, against r.
+std::vector<NamedPlot> paper_curves();
 
 // Returns the text of docs/accuracy.md, which links to the plots in plots/ and to the figures in
 // figures/.

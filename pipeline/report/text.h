@@ -1,10 +1,12 @@
-// These functions write numbers, table cells and file names as the report needs them.
+// These functions write numbers, lines of tables and file names as the report needs them.
 #pragma once
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <string>
+#include <type_traits>
 
 namespace domefall {
 
@@ -14,13 +16,49 @@ inline std::string amount(double value) {
   return value < kWhole ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
 
-// Returns a cell of a CSV file.  A cell that holds a comma, a quotation mark or a new line is
-// quoted as RFC 4180 prescribes.
-inline std::string csv_cell(const std::string& cell) {
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+// Returns an error with two significant digits, which show its power of ten and a little more.
+inline std::string error_text(double value) { return fmt::format("{:.1e}", value); }
+
+// Returns the tolerance of a step, or nothing for 0, which says that there is none.
+inline std::string tolerance_text(double value) {
+  return value > 0 ? fmt::format("{:.0e}", value) : "";
+}
+
+// Returns line(row) of all rows.
+template <class Rows, class Line>
+std::string lines_of(const Rows& rows, const Line& line) {
+  std::string lines;
+  for (const auto& row : rows) lines += line(row);
+  return lines;
+}
+
+// Returns a line of a table in Markdown.
+template <class... Cells>
+std::string table_line(const Cells&... cells) {
+  std::string line = "|";
+  ((line += fmt::format(" {} |", cells)), ...);
+  return line + "\n";
+}
+
+// Returns a cell of a CSV file.  Numbers have six significant digits, so that a file shows more
+// than the pages do.  A text that holds a comma, a quotation mark or a new line is quoted as RFC
+// 4180 prescribes.
+template <class Value>
+std::string csv_cell(const Value& value) {
+  if constexpr (std::is_same_v<Value, double>) return fmt::format("{:.6g}", value);
+  std::string text = fmt::format("{:}", value);
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
-  for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
+}
+
+template <class... Cells>
+std::string csv_line(const Cells&... cells) {
+  std::string line;
+  ((line += csv_cell(cells) + ","), ...);
+  line.back() = '\n';
+  return line;
 }
 
 // Makes a name fit for a file: letters become small, and whatever else stands between letters and

@@ -35,7 +35,6 @@ fs::path assets_folder() {
   if (fs::path named = named_folder(); !named.empty()) return named;
   std::error_code error;
   if (const fs::path program = program_folder(); !program.empty()) {
-    // An installed program lies in PREFIX/bin, and its assets lie in PREFIX/share.
     fs::path installed = program.parent_path() / "share" / "domefall" / "assets";
     if (fs::is_directory(installed, error)) return installed;
   }
@@ -48,7 +47,6 @@ fs::path shipped_asset(std::string_view name) {
   fs::path file = assets_folder() / name;
   // A folder that the user names stands alone, so that what it lacks is reported as missing there.
   if (!named_folder().empty() || fs::exists(file, error)) return file;
-  // The build makes some assets, which lie beside the program or in the tree of the build.
   for (const fs::path& folder : {program_folder() / "assets", fs::path(DOMEFALL_BUILT_ASSETS)})
     if (fs::path built = folder / name; fs::exists(built, error)) return built;
   return file;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/hole_optics.h"
-#include "pipeline/show/vantage.h"
+#include "pipeline/light/aberration.h"
+#include "pipeline/light/lens_store.h"
+#include "pipeline/show/viewer.h"
 
 namespace domefall {
 namespace {
@@ -73,12 +73,17 @@ Imath::Quatd quaternion_of(const M33d& m) {
 // Returns motion_direction() in the frame whose directions are drawn.  Outside the horizon that
 // frame may be at rest, and then the direction is that in which the observer moves against it.
 // Inside, where the frame rests in t, motion_direction() of that frame continues it.
-V3d motion_seen(const ObserverState& o, const Vantage& vantage) {
-  if (!vantage.measured) return motion_direction(o);
-  if (o.r > 2) return *vantage.measured;
+V3d motion_seen(const ObserverState& o, const Viewer& viewer) {
+  if (!viewer.measured) return motion_direction(o);
+  if (has_rest(o)) return *viewer.measured;
   ObserverState resting = o;
-  resting.celerity = vantage.celerity;
+  resting.celerity = viewer.celerity;
   return motion_direction(resting);
+}
+
+// Returns the observer's lens, without tables, which a camera needs none of.
+std::shared_ptr<const Lens> aiming_lens(const ObserverState& o) {
+  return LensStore().lens(o, {{false, false, false}});
 }
 
 // Returns the direction in the tetrad in which a body is seen, or that of the hole where the body
@@ -87,18 +92,18 @@ V3d direct_image(const Body& body, const ObserverState& o) {
   constexpr double kApart = 1e-6;  // M; rounding spoils directions to what is nearer
   const V3d hole(-1, 0, 0);
   if (!sees_bodies(o)) return hole;
-  const PlaceView view{o.r, is_outgoing(o.tetrad), false};
-  const auto image = image_of_body(view, o.null_time, motion_of(body, o.sky_from_tetrad), 0, 0);
+  const auto image = aiming_lens(o)->body_image(
+      o.null_time, motion_of(o.spacetime, body, o.sky_from_tetrad), 0, 0);
   return image && image->angle_per_length * kApart < 1 ? image->direction : hole;
 }
 
 }  // namespace
 
 V3d motion_direction(const ObserverState& o) {
-  // d/dt = T + sqrt(2/r) R in rain and T - sqrt(2/r) R in the outgoing tetrad.  The boost into the
+  // d/dt = T + s R in rain and T - s R in the outgoing tetrad.  The boost into the
   // observer's frame ([Riazuelo] eq. Lambda_cov) turns its spatial part k into
   // k - c (1 - c.k/(1 + gamma)), where c = gamma v.
-  const double s = std::sqrt(2 / o.r);
+  const double s = o.spacetime.free_fall_speed(o.r);
   const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
   const double gamma = std::sqrt(1 + o.celerity.dot(o.celerity));
   return -(killing - o.celerity * (1 - o.celerity.dot(killing) / (1 + gamma)));
@@ -106,23 +111,22 @@ V3d motion_direction(const ObserverState& o) {
 
 std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& o,
                                     const Effects& effects) {
-  const Vantage vantage = vantage_of(o, effects);
+  const Viewer viewer = viewer_of(o, effects);
   if (std::holds_alternative<LookAtHole>(attitude))
-    return to_observer(vantage.celerity, V3d(-1, 0, 0)).direction;
+    return to_observer(viewer.celerity, V3d(-1, 0, 0)).direction;
   if (std::holds_alternative<LookOutward>(attitude))
-    return to_observer(vantage.celerity, V3d(1, 0, 0)).direction;
-  if (std::holds_alternative<LookAlongMotion>(attitude))
-    return motion_seen(o, vantage).normalized();
+    return to_observer(viewer.celerity, V3d(1, 0, 0)).direction;
+  if (std::holds_alternative<LookAlongMotion>(attitude)) return motion_seen(o, viewer).normalized();
   if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
     // From region IV no sky is seen.  At r = 2 its images appear in the outward direction.
-    if (o.region == Region::kIV) return to_observer(vantage.celerity, V3d(1, 0, 0)).direction;
+    if (o.region == Region::kIV) return to_observer(viewer.celerity, V3d(1, 0, 0)).direction;
     const V3d source = apply_transposed(o.sky_from_tetrad, sky->target.v);
-    const V3d image = effects.lensing ? primary_image(o.r, o.tetrad, source).v
-                                      : to_tetrad(vantage.rest, source).direction;
-    return to_observer(vantage.celerity, image).direction;
+    const V3d image = effects.lensing ? aiming_lens(o)->primary_image(source)
+                                      : to_tetrad(viewer.rest, source).direction;
+    return to_observer(viewer.celerity, image).direction;
   }
   if (const auto* target = std::get_if<LookAtBody>(&attitude))
-    return to_observer(vantage.celerity, direct_image(*target->body, o)).direction;
+    return to_observer(viewer.celerity, direct_image(*target->body, o)).direction;
   return std::nullopt;
 }
 

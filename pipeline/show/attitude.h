@@ -12,7 +12,7 @@ namespace domefall {
 // Returns the camera axes X, Y and Z, as columns in the boosted tetrad, for an observer whose state
 // is complete except for its camera.  A flat projection puts the target in the middle of the image.
 // A projection with a zenith puts it `elevation` above the front of the rim.  Without aberration
-// the tetrad is that of the observer at rest (vantage.h).
+// the tetrad is that of the observer at rest (viewer.h).
 M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer,
                  const Effects& effects = {});
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "pipeline/optics/emission_time.h"
+#include "pipeline/light/emission_time.h"
 #include "pipeline/show/placement.h"
 
 namespace domefall {
@@ -14,24 +13,20 @@ namespace {
 // With the radial celerity w, E = gamma + s w and u^r = w + s gamma in the outgoing tetrad.  In
 // rain both signs are minus, which gives w = (u^r + s E)/(1 - s^2).  The null times differ by
 // v - u = 2 r*.
-OrbitPoint in_rain(OrbitPoint point) {
+OrbitPoint in_rain(const Spacetime& spacetime, OrbitPoint point) {
   if (!is_outgoing(point.tetrad) || point.region != Region::kI) return point;
-  const double s = std::sqrt(2 / point.r), lapse = 1 - 2 / point.r;
+  const double s = spacetime.free_fall_speed(point.r);
   const double gamma = std::sqrt(1 + point.celerity.dot(point.celerity));
   const double energy = gamma + s * point.celerity.x, u_r = point.celerity.x + s * gamma;
-  point.celerity.x = (u_r + s * energy) / lapse;
-  point.null_time = point.null_time + 2 * tortoise(point.r);
+  point.celerity.x = (u_r + s * energy) / spacetime.lapse_squared(point.r);
+  point.null_time = point.null_time + 2 * spacetime.tortoise(point.r);
   point.tetrad = Tetrad::kRain;
   return point;
 }
 
-// Returns the proper time since Body::start at which a body begins to shine.  A geodesic may begin
-// in the past singularity, and all other motions go back for ever.
+// Returns the proper time since Body::start at which a body begins to shine.
 double first_proper_time(const Body& body) {
-  if (!body.shines_before) return 0;
-  const auto* geodesic = std::get_if<Geodesic>(&body.trajectory);
-  return geodesic ? geodesic->birth() - double(body.start)
-                  : -std::numeric_limits<double>::infinity();
+  return body.shines_before ? birth(body.trajectory) - double(body.start) : 0;
 }
 // Returns the proper time since Body::start at which a body ends.
 double last_proper_time(const Body& body) { return lifetime(body.trajectory) - double(body.start); }
@@ -42,12 +37,13 @@ bool sees_bodies(const ObserverState& observer) {
   return !is_flat(observer) && !is_mirrored(observer.tetrad) && observer.region != Region::kIV;
 }
 
-BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad) {
+BodyMotion motion_of(const Spacetime& spacetime, const Body& body, const M33d& sky_from_tetrad) {
   const V3d normal = apply_transposed(sky_from_tetrad, body.normal.v);
   const V3d node = apply_transposed(sky_from_tetrad, body.node.v);
   const V3d onward = normal.cross(node);
-  const auto point = [&body](double tau) {
-    return in_rain(placed(point_at(body.trajectory, body.start + tau), {false, body.backward, 0}));
+  const auto point = [spacetime, &body](double tau) {
+    return in_rain(spacetime,
+                   placed(point_at(body.trajectory, body.start + tau), {false, body.backward, 0}));
   };
   const OrbitPoint start = point(0);
   return {[=](double tau) {
@@ -65,19 +61,20 @@ BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad) {
           first_proper_time(body), last_proper_time(body)};
 }
 
-Beginning beginning_beside(const Body& body, double tau, double behind) {
-  const BodyPoint at = motion_of(body, M33d()).at(tau);
+Beginning beginning_beside(const Spacetime& spacetime, const Body& body, double tau,
+                           double behind) {
+  const BodyPoint at = motion_of(spacetime, body, M33d()).at(tau);
   const OrbitPoint own = point_at(body.trajectory, body.start + tau);
   // The outgoing tetrad counts u = v - 2 r*.
   const bool outgoing = is_outgoing(own.tetrad) && own.region == Region::kI;
   return {from_columns(at.direction, -body.normal.v, body.normal.v.cross(at.direction)),
-          at.null_time + behind - (outgoing ? 2 * tortoise(own.r) : 0)};
+          at.null_time + behind - (outgoing ? 2 * spacetime.tortoise(own.r) : 0)};
 }
 
 // v grows with tau, so that steps that double bracket the tau, and bisection narrows the bracket
 // down to two neighbouring doubles.
-std::optional<double> time_of_null(const Body& body, double null_time) {
-  const BodyMotion motion = motion_of(body, M33d());
+std::optional<double> time_of_null(const Spacetime& spacetime, const Body& body, double null_time) {
+  const BodyMotion motion = motion_of(spacetime, body, M33d());
   const auto is_later = [&](double tau) { return motion.at(tau).null_time > null_time; };
   constexpr double kFarthestTau = 1e15, kFirstStep = 1e-3;  // M
   double low = 0, high = 0;

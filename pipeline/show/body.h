@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/optics/body_image.h"
+#include "pipeline/light/body_image.h"
 #include "pipeline/show/placement.h"
 #include "trajectories/directions.h"
 #include "trajectories/observer_state.h"
@@ -38,14 +38,14 @@ bool sees_bodies(const ObserverState& observer);
 
 // Returns the motion of a body as an observer with these axes has to know it.  Proper time counts
 // from Body::start.
-BodyMotion motion_of(const Body& body, const M33d& sky_from_tetrad);
+BodyMotion motion_of(const Spacetime& spacetime, const Body& body, const M33d& sky_from_tetrad);
 
 // Returns where an observer begins who moves as the body does, but `behind` later (M of v), and
 // whose proper time is `start` + tau.
-Beginning beginning_beside(const Body& body, double tau, double behind);
+Beginning beginning_beside(const Spacetime& spacetime, const Body& body, double tau, double behind);
 
 // Returns the tau at which the v of the body is `null_time`, or nothing where the body has not
 // begun or has ended by then.
-std::optional<double> time_of_null(const Body& body, double null_time);
+std::optional<double> time_of_null(const Spacetime& spacetime, const Body& body, double null_time);
 
 }  // namespace domefall

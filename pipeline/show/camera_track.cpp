@@ -1,5 +1,3 @@
-#include "pipeline/show/camera_track.h"
-
 #include <algorithm>
 #include <cmath>
 

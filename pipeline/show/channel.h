@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "pipeline/grade/grade_settings.h"
-#include "trajectories/sky_region.h"
+#include "pipeline/spacetime/regions.h"
 
 namespace domefall {
 
@@ -103,7 +103,33 @@ Cdl cdl_from(const Value& value) {
 inline constexpr PerSky<std::string_view> kSkyKeys{{"region_I", "region_III", "region_IV"}};
 
 // Returns the key of a channel in show files, such as "roll_deg".  The key of a channel outside
-// `camera` is a whole path, such as "sky.region_I.stars.gain".
-std::string key_of(Channel channel);
+// `camera` is a whole path, and the colours of a triple share one.
+inline std::string key_of(Channel channel) {
+  constexpr std::array<std::string_view, kChannels> kKeys{"roll_deg",
+                                                          "elevation_deg",
+                                                          "dome_tilt_deg",
+                                                          "fov_deg",
+                                                          "exposure.ev",
+                                                          "sky.region_I.gain",
+                                                          "sky.region_III.gain",
+                                                          "sky.region_IV.gain",
+                                                          "sky.region_I.stars.gain",
+                                                          "sky.region_III.stars.gain",
+                                                          "sky.region_IV.stars.gain",
+                                                          "sky.region_I.stars.max_magnitude",
+                                                          "sky.region_III.stars.max_magnitude",
+                                                          "sky.region_IV.stars.max_magnitude",
+                                                          "grade.cdl.slope",
+                                                          "grade.cdl.slope",
+                                                          "grade.cdl.slope",
+                                                          "grade.cdl.offset",
+                                                          "grade.cdl.offset",
+                                                          "grade.cdl.offset",
+                                                          "grade.cdl.power",
+                                                          "grade.cdl.power",
+                                                          "grade.cdl.power",
+                                                          "grade.cdl.saturation"};
+  return std::string(kKeys[static_cast<std::size_t>(channel)]);
+}
 
 }  // namespace domefall

@@ -1,7 +1,10 @@
 #include "pipeline/show/curve.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+
+#include "trajectories/monotone_cubic.h"
 
 namespace domefall {
 namespace {
@@ -21,11 +24,7 @@ double slope_at(const Keys& keys, std::size_t k) {
   const double in = secant(keys, k), out = secant(keys, k + 1);
   if (before == Ease::kLinear) return in;
   if (after == Ease::kLinear) return out;
-  if (!(in * out > 0)) return 0;
-  // The weights of the harmonic mean favour the secant of the shorter stretch.
-  const double h_in = keys[k].at_s - keys[k - 1].at_s, h_out = keys[k + 1].at_s - keys[k].at_s;
-  const double a = 2 * h_out + h_in, b = h_out + 2 * h_in;
-  return (a + b) / (a / in + b / out);
+  return monotone_slope(keys[k].at_s - keys[k - 1].at_s, in, keys[k + 1].at_s - keys[k].at_s, out);
 }
 
 // Returns the slope at an end of a stretch whose secant is `chord`.  The slope of a linear
@@ -35,6 +34,23 @@ double tamed(double slope, double chord) {
   if (!(slope * chord > 0)) return 0;
   return std::abs(slope) > 3 * std::abs(chord) ? 3 * chord : slope;
 }
+
+// ---- the rate of a clock ----
+
+// Returns the integral from 0 to x of the rate a + (b - a) (3 t^2 - 2 t^3).
+double ramp(double a, double b, double x) { return x * (a + (b - a) * x * x * (1 - x / 2)); }
+
+// Returns the integral from 0 to x of (1 - t)^n (1 + n t).  This rate falls from 1 to 0 with a
+// slope of 0 at both ends, and is 1 - 3 t^2 + 2 t^3 for n = 2.  With U = 1 - x the integral is
+// (2 - U^(n+1) (2 + n x))/(n + 2), whose difference cancels for small x unless it is formed by
+// expm1 and log1p.
+double falling(double n, double x) {
+  const double exponent = (n + 1) * std::log1p(-x);
+  return (-2 * std::expm1(exponent) - n * x * std::exp(exponent)) / (n + 2);
+}
+
+// Returns the integral from 0 to x of the same rate run backwards, t^n (1 + n (1 - t)).
+double rising(double n, double x) { return std::pow(x, n + 1) * (2 + n * (1 - x)) / (n + 2); }
 
 }  // namespace
 
@@ -49,13 +65,10 @@ double value_at(const Curve& curve, double t) {
   if (to.ease == Ease::kHold) return from.value;
   const double h = to.at_s - from.at_s, x = (t - from.at_s) / h;
   if (to.ease == Ease::kLinear) return from.value + x * (to.value - from.value);
-  // This is the cubic Hermite polynomial in x, in Horner's form, with the slopes m0 and m1 per unit
-  // of x at the ends.  Its coefficients follow from the values and the slopes at x = 0 and x = 1.
   const double chord = secant(keys, k);
-  const double m0 = tamed(slope_at(keys, k - 1), chord) * h,
-               m1 = tamed(slope_at(keys, k), chord) * h;
-  const double rise = to.value - from.value;
-  return from.value + x * (m0 + x * (3 * rise - 2 * m0 - m1 + x * (m0 + m1 - 2 * rise)));
+  return HermiteCubic(from.value, to.value, tamed(slope_at(keys, k - 1), chord) * h,
+                      tamed(slope_at(keys, k), chord) * h)
+      .at(x);
 }
 
 double largest(const Curve& curve) {
@@ -67,6 +80,26 @@ double largest(const Curve& curve) {
 double smooth_step(double t) {
   const double x = std::clamp(t, 0.0, 1.0);
   return x * x * x * (10 + x * (6 * x - 15));
+}
+
+double light_left(const Fades& fades, double begin, double end, double t) {
+  const auto part = [](double passed, double fade) {
+    return fade > 0 ? smooth_step(passed / fade) : 1;
+  };
+  const double left = part(t - begin, fades.in_s) * part(end - t, fades.out_s);
+  return left * left;
+}
+
+double part_passed(double begin, double end, double x) {
+  constexpr double kRounding = 1e-13;
+  const double sum = begin + end, missing = 1 - sum / 2;
+  if (std::abs(missing) < kRounding) return ramp(begin, end, x);
+  if (missing > 0) return ramp(begin, end, x) + missing * smooth_step(x);
+  // The integrals of the falling and of the rising rate over the whole segment are 2/(n + 2) each.
+  // The mean kMiddle + (sum - 2 kMiddle) 2/(n + 2) must be 1, which gives n.
+  constexpr double kMiddle = 0.5;
+  const double n = 2 * (sum - 2 * kMiddle) / (1 - kMiddle) - 2;
+  return kMiddle * x + (begin - kMiddle) * falling(n, x) + (end - kMiddle) * rising(n, x);
 }
 
 }  // namespace domefall

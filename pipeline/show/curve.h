@@ -1,4 +1,5 @@
-// A Curve is a number that changes along the show, interpolated between keyframes.
+// How numbers change along a show: curves through keyframes, fades, and the rate of a clock between
+// two given ones.
 #pragma once
 
 #include <vector>
@@ -18,6 +19,7 @@ struct CurveKey {
   Ease ease = Ease::kSmooth;
 };
 
+// A Curve is a number that changes along the show, interpolated between keyframes.
 struct Curve {
   std::vector<CurveKey> keys;  // never empty; times ascend strictly
 };
@@ -37,5 +39,33 @@ double largest(const Curve& curve);
 // with first and second derivatives of 0 at both ends.  A t outside [0, 1] is moved to the nearer
 // end.
 double smooth_step(double t);
+
+// ---- fades ----
+
+// The light rises from black in the first `in_s` seconds of show, and sinks to it in the last
+// `out_s`.
+struct Fades {
+  double in_s = 0, out_s = 0;
+};
+
+// Returns the part of its light, 0 to 1, that something which lasts from `begin` to `end` (seconds)
+// has left at t.  The light changes evenly to the eye, which sees a quarter of it as half.
+double light_left(const Fades& fades, double begin, double end, double t);
+
+// ---- the rate of a clock ----
+
+// Returns the part of a segment's proper time that has passed when the part x (0 to 1) of its
+// duration has.  `begin` and `end` (>= 0) are the clock's rates at both ends, as parts of the mean
+// rate, which is 1.  The rate is smooth and at no time negative.  Its slope is 0 at both ends, so
+// that segments whose rates meet join without a jerk.
+//
+// With begin + end = 2 the rate goes from the one to the other by 3 x^2 - 2 x^3.  With less,
+// 30 x^2 (1 - x)^2, which is the rate from standstill to standstill, is added until the mean is 1.
+// With more, the rate leaves `begin` for half the mean and goes on from there to `end`, the faster
+// the more both together exceed twice the mean.  It lies within these three values throughout.
+//
+// Next to x = 0 the result is right to a few epsilon of itself.  1 minus the result is
+// part_passed(end, begin, 1 - x).
+double part_passed(double begin, double end, double x);
 
 }  // namespace domefall

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/show/camera_track.h"
 #include "pipeline/show/observer_track.h"
 
 namespace domefall {
@@ -60,80 +59,20 @@ double fade_at(const Show& show, int segment, double t) {
   return light_left(s.fades, begin, end, t) * light_left(show.fades, 0, end_of(show), t);
 }
 
-// Returns the state of a frame in one segment, without a dissolve.
-FrameState state_in(const Show& show, int segment, int frame, double t) {
-  const Segment& s = segment_of(show, segment);
-  FrameState state;
-  state.frame = frame;
-  state.show_time_s = t;
-  state.segment = segment;
-  state.projection = show.projection;
-  if (const auto fov = field_of_view(state.projection))
-    state.projection = with_field_of_view(state.projection, value_at(s, Channel::kFov, t, *fov));
-  state.settings = settings_at(show, s, t);
-  state.cdl = cdl_at(show, s, t);
-  state.fade = fade_at(show, segment, t);
-  state.observer = observer_at(show, segment, part_at(show, segment, t));
-  state.observer.tetrad_from_camera =
-      camera_axes_at(show, segment, t, state.projection, state.observer);
-  state.camera_from_audience =
-      audience_axes(state.projection, value_at(s, Channel::kDomeTilt, t, s.camera.dome_tilt));
-  return state;
-}
-
-// Returns the state of a frame of that segment, together with the segment that vanishes during a
-// dissolve.
-FrameState state_at(const Show& show, int segment, int frame, double t) {
-  FrameState state = state_in(show, segment, frame, t);
-  const double dissolve = segment_of(show, segment).dissolve_s;
-  const double faded = t - begin_of(show, segment);
-  if (segment == 0 || !(faded < dissolve)) return state;
-  // The segment before still runs, since the dissolve lies within its last seconds.
-  state.vanishing = std::make_shared<const FrameState>(state_in(show, segment - 1, frame, t));
-  state.vanishing_part = 1 - smooth_step(faded / dissolve);
-  state.cdl = mixed(state.cdl, state.vanishing->cdl, state.vanishing_part);
-  return state;
-}
-
-}  // namespace
-
-FrameState frame_state(const Show& show, int frame) {
-  const double t = frame / show.frames_per_second;
-  return state_at(show, segment_at(show, t), frame, t);
-}
-
-std::vector<FrameState> exposure_states(const Show& show, int frame, int count) {
-  const double t = frame / show.frames_per_second;
-  const double half = show.exposure.shutter / show.frames_per_second / 2;
-  const int segment = segment_at(show, t);
-  const double begin = begin_of(show, segment);
-  // The shutter opens as long before the frame's instant as it closes after it, within the segment.
-  const double opened = std::max(t - half, begin),
-               closed = std::min(t + half, begin + segment_of(show, segment).duration_s);
-  std::vector<FrameState> states;
-  states.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k)
-    // The middles of equal parts make the mean over the states the midpoint rule of integration.
-    states.push_back(
-        state_at(show, segment, frame, opened + (closed - opened) * (k + 0.5) / count));
-  return states;
-}
-
 // With the axes S of the tetrad on the sky, a direction d of the sky has the components S^T d along
 // them.  These change by (S'^T S) S^T d, where S'^T S is antisymmetric and thus stands for a
 // rotation vector.  The difference is taken over a 64th of a frame, so that it holds up to some 60
 // radians a frame.  No film shows more.  The result is rounded, since its last bits differ between
 // processors.
-V3d sky_turn(const Show& show, const FrameState& state) {
+V3d sky_turn_at(const Show& show, int segment, double instant) {
   constexpr double kHalf = 1.0 / 128, kSteps = 1e9;
   const auto axes = [&](double frames) {
-    const double t = state.show_time_s + frames / show.frames_per_second;
-    return observer_at(show, state.segment, part_at(show, state.segment, t)).sky_from_tetrad;
+    const double t = instant + frames / show.frames_per_second;
+    return observer_at(show, segment, part_at(show, segment, t)).sky_from_tetrad;
   };
-  const double begin = begin_of(show, state.segment),
-               end = begin + segment_of(show, state.segment).duration_s;
-  const double before = std::max(-kHalf, (begin - state.show_time_s) * show.frames_per_second);
-  const double after = std::min(kHalf, (end - state.show_time_s) * show.frames_per_second);
+  const double begin = begin_of(show, segment), end = begin + segment_of(show, segment).duration_s;
+  const double before = std::max(-kHalf, (begin - instant) * show.frames_per_second);
+  const double after = std::min(kHalf, (end - instant) * show.frames_per_second);
   if (!(after > before)) return V3d(0, 0, 0);
   const M33d first = axes(before), last = axes(after);
   // (S'^T S)[i][j] is the scalar product of the change of axis i and of axis j, taken midway.
@@ -147,14 +86,66 @@ V3d sky_turn(const Show& show, const FrameState& state) {
   return {rounded(change(2, 1)), rounded(change(0, 2)), rounded(change(1, 0))};
 }
 
-void take_size(const FrameState& state, FrameState& other) {
-  const auto fov = field_of_view(other.projection);
-  other.projection = fov ? with_field_of_view(state.projection, *fov) : state.projection;
-  if (!other.vanishing) return;
-  // The state that vanishes may be shared, so that a copy takes the size.
-  auto vanishing = std::make_shared<FrameState>(*other.vanishing);
-  take_size(state, *vanishing);
-  other.vanishing = std::move(vanishing);
+// Returns the state of a frame in one segment, without a dissolve.  The image may have another size
+// than the show's.
+FrameState state_in(const Show& show, int segment, int frame, double t, const Projection& image) {
+  const Segment& s = segment_of(show, segment);
+  FrameState state;
+  state.frame = frame;
+  state.show_time_s = t;
+  state.segment = segment;
+  state.projection = image;
+  if (const auto fov = field_of_view(show.projection))
+    state.projection = with_field_of_view(image, value_at(s, Channel::kFov, t, *fov));
+  state.settings = settings_at(show, s, t);
+  state.cdl = cdl_at(show, s, t);
+  state.fade = fade_at(show, segment, t);
+  state.observer = observer_at(show, segment, part_at(show, segment, t));
+  state.sky_turn = sky_turn_at(show, segment, t);
+  state.observer.tetrad_from_camera =
+      camera_axes_at(show, segment, t, state.projection, state.observer);
+  state.camera_from_audience =
+      audience_axes(state.projection, value_at(s, Channel::kDomeTilt, t, s.camera.dome_tilt));
+  return state;
+}
+
+// Returns the state of a frame of that segment, together with the segment that vanishes during a
+// dissolve.
+FrameState state_at(const Show& show, int segment, int frame, double t, const Projection& image) {
+  FrameState state = state_in(show, segment, frame, t, image);
+  const double dissolve = segment_of(show, segment).dissolve_s;
+  const double faded = t - begin_of(show, segment);
+  if (segment == 0 || !(faded < dissolve)) return state;
+  // The segment before still runs, since the dissolve lies within its last seconds.
+  state.vanishing =
+      std::make_shared<const FrameState>(state_in(show, segment - 1, frame, t, image));
+  state.vanishing_part = 1 - smooth_step(faded / dissolve);
+  state.cdl = mixed(state.cdl, state.vanishing->cdl, state.vanishing_part);
+  return state;
+}
+
+}  // namespace
+
+FrameState frame_state(const Show& show, int frame) {
+  const double t = frame / show.frames_per_second;
+  return state_at(show, segment_at(show, t), frame, t, show.projection);
+}
+
+std::vector<FrameState> exposure_states(const Show& show, const FrameState& state, int count) {
+  const double t = state.frame / show.frames_per_second;
+  const double half = show.exposure.shutter / show.frames_per_second / 2;
+  const int segment = segment_at(show, t);
+  const double begin = begin_of(show, segment);
+  // The shutter opens as long before the frame's instant as it closes after it, within the segment.
+  const double opened = std::max(t - half, begin),
+               closed = std::min(t + half, begin + segment_of(show, segment).duration_s);
+  std::vector<FrameState> states;
+  states.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k)
+    // The middles of equal parts make the mean over the states the midpoint rule of integration.
+    states.push_back(state_at(show, segment, state.frame,
+                              opened + (closed - opened) * (k + 0.5) / count, state.projection));
+  return states;
 }
 
 }  // namespace domefall

@@ -29,6 +29,9 @@ struct FrameState {
   double show_time_s = 0;
   int segment = 0;  // index into the timeline; during a dissolve the later one
   ObserverState observer;
+  // The rotation vector of the sky against the axes R, Theta, Phi of the tetrad at this instant, in
+  // radians per frame.  It is 0 for an observer who stays on one line through the hole.
+  V3d sky_turn{0, 0, 0};
   Projection projection;
   M33d camera_from_audience;  // audience_axes() of camera.h
   FrameSettings settings;
@@ -44,17 +47,16 @@ struct FrameState {
 // frames_per_second.
 FrameState frame_state(const Show& show, int frame);
 
-// Returns the states in the middles of `count` (>= 1) equal parts of the time for which a frame's
-// shutter is open.  That time is cut off at the ends of the frame's segment, so that a cut is not
-// blurred.
-std::vector<FrameState> exposure_states(const Show& show, int frame, int count);
+// Returns the states in the middles of `count` (>= 1) equal parts of the time for which the shutter
+// of a state's frame is open.  That time is cut off at the ends of the frame's segment, so that a cut
+// is not blurred.  They have the state's projection, which a caller may have changed, with fields
+// of view of their own where it has a variable one, and everything else of the show.
+std::vector<FrameState> exposure_states(const Show& show, const FrameState& state, int count);
 
-// Returns the rotation vector of the sky against the axes R, Theta, Phi of the tetrad at a state's
-// instant, in radians per frame.  It is 0 for an observer who stays on one line through the hole.
-V3d sky_turn(const Show& show, const FrameState& state);
-
-// Gives `other`, and the state that vanishes in it, the projection of `state`, which a caller may
-// have resized.  Each keeps its own field of view where the projection has a variable one.
-void take_size(const FrameState& state, FrameState& other);
+// Returns the view that a dissolve shows more of: the state itself, or the vanishing one as long as
+// that has more of the light.
+inline const FrameState& dominant_view(const FrameState& state) {
+  return state.vanishing_part > 0.5 ? *state.vanishing : state;
+}
 
 }  // namespace domefall

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <vector>
 
+#include "pipeline/base/utf8.h"
+
 namespace domefall {
 namespace {
 
@@ -49,7 +51,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
       // and Fischer 1974).
       const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
-      // Two neighbours that are swapped cost one edit more than the beginnings without them.
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         row[j] = std::min(row[j], before[j - 2] + 1);
     }
@@ -62,7 +63,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known) {
   if (word.empty() || word.size() > 60) return {};  // no key is that long
   const std::string wanted = folded(word);
-  // The rules of the header follow in its order, and each is asked only if none before it fits.
   const auto first = [&](auto&& fits) {
     const auto at = std::ranges::find_if(known, fits);
     return at == known.end() ? std::string_view() : *at;
@@ -79,7 +79,11 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
 
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known) {
   const std::string_view nearest = nearest_word(word, known);
-  return nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?";
+  const bool plain =
+      std::ranges::all_of(known, [](std::string_view each) { return odd_character(each).empty(); });
+  const std::string odd = plain ? odd_character(word) : "";
+  return (odd.empty() ? "" : "; it " + odd) +
+         (nearest.empty() ? "" : "; did you mean " + std::string(nearest) + "?");
 }
 
 std::string listed(std::span<const std::string_view> words) {
@@ -87,6 +91,17 @@ std::string listed(std::span<const std::string_view> words) {
   for (std::size_t k = 0; k < words.size(); ++k) {
     if (k > 0) out += k + 1 == words.size() ? " or " : ", ";
     out += words[k];
+  }
+  return out;
+}
+
+std::string shown(std::string_view text) {
+  std::string out;
+  int characters = 0;
+  for (const char c : text) {
+    // A character is counted at its first byte, so that none is cut in two.
+    if (!continues_character(c) && ++characters > 40) return out + "...";
+    out.push_back(static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c);
   }
   return out;
 }

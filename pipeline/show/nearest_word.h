@@ -1,4 +1,5 @@
-// These functions find the known word that the author of a show probably meant.
+// These functions give messages their words: what the author of a show wrote, and the known word that
+// was probably meant.
 #pragma once
 
 #include <span>
@@ -17,7 +18,8 @@ namespace domefall {
 // - it begins with the given word, which has three letters at least.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> known);
 
-// Returns "; did you mean X?", or an empty text if no word is near.
+// Returns "; did you mean X?", or an empty text if no word is near.  Names a character of the word
+// that looks like another one, unless the known words have such characters, too.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
 
 // Returns the optimal string alignment distance (restricted Damerau-Levenshtein).
@@ -25,5 +27,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 
 // Returns the words as a list for a sentence: "a, b or c".
 std::string listed(std::span<const std::string_view> words);
+
+// Returns a piece of the user's text for a message.  It is cut after 40 characters, and control
+// characters become blanks.
+std::string shown(std::string_view text);
 
 }  // namespace domefall

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/show/rate_law.h"
-#include "trajectories/passages.h"
+#include "pipeline/show/curve.h"
+#include "trajectories/trajectory.h"
 
 namespace domefall {
 namespace {
 
-// Returns the tortoise coordinate r* = r + 2 ln|r/2 - 1|, with which v = u + 2 r*.
-double tortoise_of(double r) { return r + 2 * std::log(std::abs(r / 2 - 1)); }
+// The rain and the outgoing tetrad of one sky are both regular only outside its horizon.  r* is
+// infinite there and in flat space.
+bool has_both_tetrads(const Joint& joint) {
+  return !joint.spacetime.is_flat() && joint.r > joint.spacetime.horizon();
+}
 
 // Returns what must be added to the null time of a trajectory, so that it goes on from the joint.
 // Between v and u it changes by 2 r*.  Where the two do not meet, the count starts at 0 again.
@@ -18,10 +21,8 @@ DoubleDouble null_offset(const Joint& joint, const OrbitPoint& start) {
   DoubleDouble reached = joint.null_time;
   if (start.tetrad != joint.tetrad) {
     const bool same_sky = is_mirrored(start.tetrad) == is_mirrored(joint.tetrad);
-    // The rain and the outgoing tetrad of one sky are both regular only outside its horizon, and r*
-    // is infinite at r = 2 and in flat space.
-    if (!same_sky || !(joint.r > 2) || std::isinf(joint.r)) return -start.null_time;
-    reached = reached + (is_outgoing(start.tetrad) ? -2 : 2) * tortoise_of(joint.r);
+    if (!same_sky || !has_both_tetrads(joint)) return -start.null_time;
+    reached = reached + (is_outgoing(start.tetrad) ? -2 : 2) * joint.spacetime.tortoise(joint.r);
   }
   return reached - start.null_time;
 }
@@ -111,6 +112,7 @@ ProperTime proper_time_at(const Segment& s, double part) {
 
 Joint first_joint(const Show& show, const Segment& first) {
   Joint joint;
+  joint.spacetime = show.spacetime;
   joint.axes = place_tetrad(show.hole_at, show.heading, 0);
   joint.tetrad = point_of(first, first.timing.tau_begin).tetrad;
   return joint_into(joint, first);
@@ -133,8 +135,8 @@ Joint joint_into(const Joint& reached, const Segment& next) {
 double rain_time(const Joint& joint) {
   if (is_mirrored(joint.tetrad)) return 0;
   if (!is_outgoing(joint.tetrad)) return double(joint.null_time);
-  return joint.r > 2 && !std::isinf(joint.r) ? double(joint.null_time) + 2 * tortoise_of(joint.r)
-                                             : 0;
+  return has_both_tetrads(joint) ? double(joint.null_time) + 2 * joint.spacetime.tortoise(joint.r)
+                                 : 0;
 }
 
 void join_segments(Show& show) {
@@ -160,6 +162,7 @@ ObserverState observer_at(const Show& show, int segment, double part) {
   const OrbitPoint point = point_of(s, tau);
   const Joint joint = moved(joint_of(show, segment), s, point);
   ObserverState o;
+  o.spacetime = show.spacetime;
   o.region = point.region, o.tetrad = point.tetrad, o.r = point.r;
   o.proper_time = double(tau);
   o.celerity = point.celerity;

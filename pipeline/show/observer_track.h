@@ -1,4 +1,5 @@
-// These functions give the observer's place and motion along the timeline.
+// These functions give the place and motion of the observer, and the orientation of the camera, along
+// the timeline.
 #pragma once
 
 #include "pipeline/show/show.h"
@@ -43,5 +44,18 @@ int segment_at(const Show& show, double show_time_s);
 
 // Returns the part of a segment that has passed at an instant, 0 to 1.
 double part_at(const Show& show, int segment, double show_time_s);
+
+// ---- the camera ----
+
+// Returns the axes (columns in the boosted tetrad of the observer) that the camera of a segment has
+// t seconds into the show, for an image of that projection.  Between two keyframes the camera has
+// turned by a part of the rotation that leads from the one attitude to the other at t, so that it
+// does not jump while targets move.
+M33d camera_axes_at(const Show& show, int segment, double t, const Projection& projection,
+                    const ObserverState& observer);
+
+// Fills in AttitudeKey::turns of a show that is otherwise complete.  This takes some milliseconds
+// for each keyframe with a target on the sky.
+void follow_turns(Show& show);
 
 }  // namespace domefall

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
 #include "pipeline/show/nearest_word.h"
-#include "pipeline/show/problems.h"
 
 namespace domefall {
 namespace {
@@ -24,13 +23,11 @@ OverlayKind overlay_named(std::string_view word) {
 
 std::vector<OverlayKind> parse_overlays(std::string_view list) {
   std::vector<OverlayKind> overlays;
-  // An empty list, and a comma at either end, leave an empty word, which names no overlay.
   for (std::size_t comma = 0; comma != std::string_view::npos;) {
     comma = list.find(',');
     overlays.push_back(overlay_named(list.substr(0, comma)));
     if (comma != std::string_view::npos) list.remove_prefix(comma + 1);
   }
-  // The kinds are declared in the order of drawing.
   std::ranges::sort(overlays);
   overlays.erase(std::unique(overlays.begin(), overlays.end()), overlays.end());
   return overlays;

@@ -11,8 +11,6 @@ double value_at(const Segment& segment, Channel channel, double t, double consta
 }
 
 const SkyBackground& background_of(const Show& show, int segment, SkyRegion region) {
-  // An index that is no segment's, which the cast makes huge if it is negative, has the show's
-  // background.
   const auto k = static_cast<std::size_t>(segment);
   const bool own = k < show.timeline.size() && show.timeline[k].backgrounds[region];
   return own ? *show.timeline[k].backgrounds[region] : show.sky[region].background;
@@ -23,7 +21,6 @@ std::vector<double> segment_times(const Show& show) {
   times.reserve(show.timeline.size() + 1);
   double end = 0;
   for (const Segment& segment : show.timeline) {
-    // During its dissolve a segment runs beside the last seconds of the one before.
     times.push_back(end - segment.dissolve_s);
     end = times.back() + segment.duration_s;
   }
@@ -38,7 +35,6 @@ double end_of(const Show& show) {
 }
 
 int frame_count(const Show& show) {
-  // The product fits an int, since the reader of the timeline bounds it by kMostFrames.
   return std::max(1, static_cast<int>(std::lround(end_of(show) * show.frames_per_second)));
 }
 

@@ -2,29 +2,33 @@
 // every default filled in.  docs/show-format.md describes the file key by key.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
-#include "pipeline/colour/colour_space.h"
-#include "pipeline/disc/disc.h"
+#include "pipeline/base/lettering.h"
 #include "pipeline/grade/grade_settings.h"
-#include "pipeline/image/encode/exr_compression.h"
-#include "pipeline/image/graded_format.h"
-#include "pipeline/lettering/lettering.h"
+#include "pipeline/image/encode/exr_writer.h"
+#include "pipeline/image/graded_file.h"
+#include "pipeline/image/layer.h"
 #include "pipeline/show/body.h"
 #include "pipeline/show/camera.h"
 #include "pipeline/show/channel.h"
 #include "pipeline/show/curve.h"
-#include "pipeline/show/fades.h"
 #include "pipeline/show/overlay_kind.h"
 #include "pipeline/show/placement.h"
-#include "pipeline/sky/catalogue/star_catalogue.h"
+#include "pipeline/sources/colour/colour_space.h"
+#include "pipeline/sources/disc/disc.h"
+#include "pipeline/sources/stars/star_catalogue.h"
+#include "pipeline/spacetime/regions.h"
+#include "pipeline/spacetime/spacetime.h"
 #include "projections/projection.h"
-#include "trajectories/sky_region.h"
 #include "trajectories/trajectory.h"
 
 namespace domefall {
@@ -170,6 +174,12 @@ struct PointSpreadLaw {
   double white_core = 0;  // pixel value at which a star's colour is half white; 0 for never
 };
 
+// Returns the gain that stars have where a show names none.  With a halo it makes them one magnitude
+// fainter than in nature against the sky between them, since 10^-0.4 is about 0.4.  Otherwise a dome
+// of 4096 pixels would show stars of V = 9 as bright as the heart of the Milky Way, and fields of
+// stars would look uniform.  The law of the paper has its own balance.
+inline double default_star_gain(const PointSpreadLaw& law) { return law.halo > 0 ? 0.4 : 1; }
+
 struct Exposure {
   double ev = 0;  // stops; pixel value 1 is kReferenceLuminance / 2^ev
   // The shutter is open for this part of the time between two frames, about each frame's instant.
@@ -199,6 +209,17 @@ struct Effects {
   bool operator==(const Effects&) const = default;
 };
 
+// The words by which show files and the preview name the effects.
+inline constexpr std::array<std::pair<std::string_view, bool Effects::*>, 4> kEffectSwitches{
+    {{"aberration", &Effects::aberration},
+     {"doppler_colour", &Effects::doppler_colour},
+     {"intensity", &Effects::intensity},
+     {"lensing", &Effects::lensing}}};
+inline constexpr std::pair<std::string_view, Amplification> kAmplifications[] = {
+    {"stars", Amplification::kStars},
+    {"none", Amplification::kNone},
+    {"everything", Amplification::kEverything}};
+
 // ---- the whole ----
 
 // A Marker is an instant of the show that bears a name.
@@ -219,6 +240,7 @@ struct FrameNames {
 struct Output {
   std::optional<ExrFormat> linear = ExrFormat{};        // nothing: none
   std::optional<GradedFormat> graded = GradedFormat{};  // nothing: none
+  std::vector<Layer> layers;  // of scene-linear files, each once, in the order of drawing
   FrameNames names;
   std::string owner;  // of the pictures, named in the scene-linear files; empty: not named
 };
@@ -229,6 +251,7 @@ struct Joint {
   M33d axes;           // of the observer's tetrad on the sky
   double azimuth = 0;
   DoubleDouble null_time{};
+  Spacetime spacetime;  // of the show
   Tetrad tetrad = Tetrad::kRain;
   double r = kFlatSpace;
 };
@@ -237,8 +260,9 @@ struct Show {
   std::filesystem::path file;
   std::string title;
   double frames_per_second = 30;
+  std::optional<double> written_rate{};  // of the file, where it stands for frames_per_second
   Projection projection = Domemaster{4096};
-  std::optional<double> mass_solar;  // none in flat space
+  Spacetime spacetime;
   // At the start the hole stands at `hole_at` on the sky, and the motion of an orbit (Phi) sets out
   // at the position angle `heading` (radians, from north through east).  placement.h says how they
   // place an orbit.
@@ -272,10 +296,6 @@ struct Show {
   GradeSettings grade;
   Output output;
 };
-
-// GM/c^3 of the sun (IAU 2015 nominal GM) is the length in seconds of one M of a hole of one solar
-// mass.
-inline constexpr double kSecondsPerSolarMass = 4.925490947e-6;
 
 inline constexpr int kMostFrames = 10'000'000;
 

@@ -10,7 +10,6 @@ std::array<StateCell, kStateColumns.size()> state_cells(const FrameState& state)
   // Seventeen digits give back every double exactly.
   constexpr int kTime = 9, kAngle = 15, kAll = 17;
   const ObserverState& o = state.observer;
-  // Column 0 is R on the sky, the direction from the hole to the observer.
   const Equatorial place = equatorial({column(o.sky_from_tetrad, 0)});
   const V3d x = column(o.tetrad_from_camera, 0), y = column(o.tetrad_from_camera, 1),
             z = column(o.tetrad_from_camera, 2);

@@ -16,6 +16,7 @@
 #include "pipeline/render/blobs/blob_layer.h"
 #include "pipeline/render/scene/exposure.h"
 #include "pipeline/report/frame_timing.h"
+#include "pipeline/report/made_up_stars.h"
 
 namespace domefall {
 namespace {
@@ -23,22 +24,6 @@ namespace {
 using std::numbers::pi;
 
 enum Law { kSize, kPsf };
-
-// The number of stars of Tycho-2 that are brighter than V.
-constexpr struct {
-  double magnitude, stars;
-} kCounts[] = {{0, 4},      {2, 50},      {4, 500},     {6.5, 8805},   {8, 45630},
-               {9, 130720}, {10, 357145}, {11, 945959}, {12, 2083385}, {13, 2543829}};
-
-double magnitude_of(double rank) {
-  for (std::size_t k = 1; k < std::size(kCounts); ++k)
-    if (rank <= kCounts[k].stars) {
-      const double part = std::log(std::max(rank, 1.0) / kCounts[k - 1].stars) /
-                          std::log(kCounts[k].stars / kCounts[k - 1].stars);
-      return kCounts[k - 1].magnitude + part * (kCounts[k].magnitude - kCounts[k - 1].magnitude);
-    }
-  return kCounts[std::size(kCounts) - 1].magnitude;
-}
 
 // Images of the 2 * count brightest stars of the sky, of which a dome shows half, within an angle
 // of its zenith and `gain` times as bright as they are.
@@ -51,8 +36,8 @@ std::vector<StarImage> stars(const Projection& p, std::size_t count, double with
                  phi = 2 * pi * u(random);
     const auto at = pixel_of(
         p, {{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}});
-    const double lux =
-        kMagnitudeZeroLux * std::pow(10, -0.4 * magnitude_of(2.0 * static_cast<double>(k + 1)));
+    const double lux = kMagnitudeZeroLux *
+                       std::pow(10, -0.4 * magnitude_of_rank(2.0 * static_cast<double>(k + 1)));
     const double flux = gain * lux * exposure_scale(FrameSettings{});
     images[k] = {static_cast<float>(at->i - 1),
                  static_cast<float>(at->j - 1),

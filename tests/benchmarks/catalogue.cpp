@@ -3,16 +3,15 @@
 //
 //     build/release/tests/bench_catalogue
 #include <benchmark/benchmark.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
 #include <random>
 #include <vector>
 
-#include "pipeline/sky/catalogue/read_star_catalogue.h"
-#include "pipeline/sky/catalogue/star_catalogue.h"
-#include "pipeline/sky/catalogue/star_file.h"
+#include "pipeline/base/temporary_file.h"
+#include "pipeline/sources/stars/star_catalogue.h"
+#include "pipeline/sources/stars/star_file.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
@@ -22,9 +21,9 @@ constexpr int kStars = 2'000'000;
 constexpr double kFaintest = 12;
 
 // Written once, gone with the program.
-class Catalogue {
- public:
-  Catalogue() {
+const std::filesystem::path& file() {
+  static const ScratchFolder folder;
+  static const std::filesystem::path path = [] {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> ra(0, 360), dec(-90, 90);
     RawCatalogue raw;
@@ -36,27 +35,10 @@ class Catalogue {
       star.colour = static_cast<float>(i % 20) * 0.1F;
       star.pm_ra = static_cast<float>(i % 50), star.pm_dec = 3;
     }
-    write_star_file(file_, raw);
-  }
-  ~Catalogue() {
-    std::error_code ignored;
-    std::filesystem::remove(file_, ignored);
-  }
-  Catalogue(const Catalogue&) = delete;
-  Catalogue(Catalogue&&) = delete;
-  Catalogue& operator=(const Catalogue&) = delete;
-  Catalogue& operator=(Catalogue&&) = delete;
-
-  const std::filesystem::path& file() const { return file_; }
-
- private:
-  std::filesystem::path file_ = std::filesystem::temp_directory_path() /
-                                ("domefall_bench_" + std::to_string(getpid()) + ".stars");
-};
-
-const std::filesystem::path& file() {
-  static const Catalogue catalogue;
-  return catalogue.file();
+    write_star_file(folder / "drawn.stars", raw);
+    return folder / "drawn.stars";
+  }();
+  return path;
 }
 
 void read(benchmark::State& state, double limit, double epoch) {

@@ -11,21 +11,21 @@
 #include <OpenImageIO/imageio.h>
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include "pipeline/base/deflate.h"
+#include "pipeline/base/stop_watch.h"
 #include "pipeline/grade/grader.h"
-#include "pipeline/image/encode/deflate.h"
 #include "pipeline/image/encode/dither.h"
-#include "pipeline/image/encode/exr_zip.h"
+#include "pipeline/image/encode/exr_writer.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
 #include "pipeline/render/renderer.h"
-#include "pipeline/show/read_show.h"
+#include "pipeline/show/file/read_show.h"
 #include "tests/source_tree.h"
 
 namespace domefall {
@@ -52,23 +52,15 @@ const Sample& sample() {
   return made;
 }
 
-double cpu_ms() {
-  rusage use{};
-  getrusage(RUSAGE_SELF, &use);
-  const auto ms = [](const timeval& t) {
-    return 1e3 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_usec);
-  };
-  return ms(use.ru_utime) + ms(use.ru_stime);
-}
-
 // Measures write(path), which makes a file.
 template <class Write>
 void measure_file(benchmark::State& state, const char* name, Write write) {
   sample();
   const fs::path path = fs::temp_directory_path() / (std::string("domefall_bench_") + name);
-  const double start = cpu_ms();
+  const double start = processor_seconds();
   for (auto _ : state) write(path);
-  state.counters["cpu_ms"] = (cpu_ms() - start) / static_cast<double>(state.iterations());
+  state.counters["cpu_ms"] =
+      1e3 * (processor_seconds() - start) / static_cast<double>(state.iterations());
   state.counters["MB"] = 1e-6 * static_cast<double>(fs::file_size(path));
   fs::remove(path);
 }
@@ -144,15 +136,6 @@ void dither(benchmark::State& state) {
   for (auto _ : state) dither_rows(graded.row(0), graded.width, graded.height, 0, 7, out.data());
 }
 
-void exr_blocks(benchmark::State& state) {
-  const HalfFrame& frame = sample().frame;
-  constexpr int kRows = 16;
-  ExrZip zip;
-  for (auto _ : state)
-    for (int y = 0; y < frame.height; y += kRows)
-      benchmark::DoNotOptimize(zip.pack(frame.row(y), frame.width, kRows));
-}
-
 void deflate(benchmark::State& state) {
   const GradedFrame& graded = sample().graded;
   constexpr std::size_t kStrip = 1 << 19;
@@ -167,7 +150,6 @@ void deflate(benchmark::State& state) {
 
 BENCHMARK(grade)->Unit(benchmark::kMillisecond);
 BENCHMARK(dither)->Unit(benchmark::kMillisecond);
-BENCHMARK(exr_blocks)->Unit(benchmark::kMillisecond);
 BENCHMARK(deflate)->Unit(benchmark::kMillisecond);
 BENCHMARK(former_exr)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(exr, zip, ExrCompression::kZip)->Unit(benchmark::kMillisecond);

@@ -1,24 +1,20 @@
 // These benchmarks measure what a dome frame costs, as multiples of copying it.  The frame is first
 // light at r = 7 M, with the Milky Way and every image that matters of the 131,085 standard stars.
-// Files and grading are measured apart, at 4k.
+// Grading is measured apart, at 4k; what files cost, bench_files measures.
 //
 //     build/release/tests/bench_frame
 #include <benchmark/benchmark.h>
-#include <sys/resource.h>
 
 #include <array>
-#include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "pipeline/base/stop_watch.h"
 #include "pipeline/grade/grader.h"
-#include "pipeline/image/frame_file.h"
-#include "pipeline/image/graded_file.h"
 #include "pipeline/render/renderer.h"
 #include "pipeline/report/frame_timing.h"
-#include "pipeline/show/read_show.h"
+#include "pipeline/show/file/read_show.h"
 #include "tests/source_tree.h"
 
 namespace domefall {
@@ -43,30 +39,20 @@ Show first_light(int size) {
   return show;
 }
 
-double cpu_seconds() {
-  rusage use{};
-  getrusage(RUSAGE_SELF, &use);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(use.ru_utime) + seconds(use.ru_stime);
-}
-
 // What the iterations of a benchmark took: the quickest one's time, since a machine may be busy
 // with other things, and the CPU time of all.
 class Stopwatch {
  public:
   template <class F>
   void time(F&& f) {
-    const auto start = std::chrono::steady_clock::now();
+    const StopWatch watch;
     f();
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    best_ = std::min(best_, took.count());
+    best_ = std::min(best_, watch.seconds());
   }
 
   // Both as multiples of copying the frame, too.
   void report(benchmark::State& state, const HalfFrame& frame) const {
-    const double cpu = (cpu_seconds() - start_) / static_cast<double>(state.iterations());
+    const double cpu = (processor_seconds() - start_) / static_cast<double>(state.iterations());
     const double copy = copy_seconds(frame);
     state.counters["best_ms"] = 1e3 * best_;
     state.counters["copies"] = best_ / copy;
@@ -76,7 +62,7 @@ class Stopwatch {
   }
 
  private:
-  double best_ = 1e9, start_ = cpu_seconds();
+  double best_ = 1e9, start_ = processor_seconds();
 };
 
 void render_again(benchmark::State& state, const Show& show) {
@@ -166,25 +152,8 @@ void grade_by_formulas(benchmark::State& state) {
   watch.report(state, frame);
 }
 
-void write_linear(benchmark::State& state) {
-  const HalfFrame frame = rendered(first_light(4096));
-  const auto path = std::filesystem::temp_directory_path() / "domefall_bench.exr";
-  Stopwatch watch;
-  for (auto _ : state) watch.time([&] { write_frame(path, frame, {}); });
-  watch.report(state, frame);
-  std::filesystem::remove(path);
-}
-
-void write_png(benchmark::State& state) {
-  const Show show = first_light(4096);
-  const HalfFrame frame = rendered(show);
-  const GradedFrame graded = Grader(show.grade).grade(frame);
-  const auto path = std::filesystem::temp_directory_path() / "domefall_bench.png";
-  Stopwatch watch;
-  for (auto _ : state) watch.time([&] { write_graded(path, graded, {}, {}); });
-  watch.report(state, frame);
-  std::filesystem::remove(path);
-}
+// By the wall clock, in milliseconds.
+void timed(benchmark::internal::Benchmark* of) { of->UseRealTime()->Unit(benchmark::kMillisecond); }
 
 BENCHMARK(render_frame)
     ->ArgNames({"size", "frame"})
@@ -193,16 +162,14 @@ BENCHMARK(render_frame)
     ->Args({4096, kInside})
     ->Args({8192, kFrame})
     ->Args({8192, kInside})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
+    ->Apply(timed);
 BENCHMARK(render_catalogue)
     ->ArgNames({"size", "frame"})
     ->Args({4096, 0})
     ->Args({4096, kFrame})
     ->Args({4096, kInside})
     ->Args({8192, kFrame})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
+    ->Apply(timed);
 BENCHMARK(render_sky)
     ->ArgNames({"size", "frame"})
     ->Args({1024, kFrame})
@@ -211,21 +178,13 @@ BENCHMARK(render_sky)
     ->Args({4096, kInside})
     ->Args({8192, kFrame})
     ->Args({8192, kInside})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(load_and_render_frame)->Arg(4096)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(grade_frame)
-    ->ArgNames({"view", "cdl"})
-    ->ArgsProduct({{0, 1, 2, 3}, {0, 1}})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(grade_by_formulas)
-    ->ArgNames({"view", "cdl"})
-    ->ArgsProduct({{0, 1, 2, 3}, {0, 1}})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(write_linear)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(write_png)->UseRealTime()->Unit(benchmark::kMillisecond);
+    ->Apply(timed);
+BENCHMARK(load_and_render_frame)->Arg(4096)->Apply(timed);
+void of_each_view(benchmark::internal::Benchmark* of) {
+  timed(of->ArgNames({"view", "cdl"})->ArgsProduct({{0, 1, 2, 3}, {0, 1}}));
+}
+BENCHMARK(grade_frame)->Apply(of_each_view);
+BENCHMARK(grade_by_formulas)->Apply(of_each_view);
 
 }  // namespace
 }  // namespace domefall

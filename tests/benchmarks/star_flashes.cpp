@@ -17,11 +17,10 @@
 #include <vector>
 
 #include "pipeline/render/scene/exposure.h"
-#include "pipeline/render/scene/optics_store.h"
 #include "pipeline/render/scene/sky_store.h"
 #include "pipeline/render/stars/star_image_finder.h"
+#include "pipeline/show/file/read_show.h"
 #include "pipeline/show/observer_track.h"
-#include "pipeline/show/read_show.h"
 #include "tests/source_tree.h"
 
 namespace domefall {
@@ -33,14 +32,15 @@ constexpr int kAround = 3;                            // cells
 using Cells = std::vector<float>;  // kCells x kCells, lux
 
 // The light of all stars of a frame, by cells, without that of a view which vanishes.
-Cells cells_of(const Show& show, const FrameState& state, SkyStore& skies, OpticsStore& optics,
+Cells cells_of(const Show& show, const FrameState& state, SkyStore& skies, LensStore& lenses,
                bool instants) {
   Cells cells(static_cast<std::size_t>(kCells) * kCells, 0.0f);
   const FramePlan plan = plan_frame(show, state);
   const PerSky<const Sky*> loaded = skies.skies_of(plan);
   SkyMotion motion;
-  if (plan.gravity && !instants) motion.turn = sky_turn(show, state);
-  const FrameScene scene(show, state, plan, optics.optics_for(state.observer, plan), loaded,
+  if (plan.gravity && !instants) motion.turn = state.sky_turn;
+  const FrameScene scene(show, state, plan,
+                         lens_of(state.observer, plan.wanted(), show.effects, lenses), loaded,
                          motion);
   std::vector<StarImage> images;
   for (const SkyRegion sky : kEverySky) {
@@ -80,7 +80,7 @@ struct Flash {
 
 void report(const std::string& name, const Show& show, bool instants) {
   SkyStore skies(show, SkyDetail{1});
-  OpticsStore optics;
+  LensStore lenses;
   const int frames = frame_count(show);
   std::array<Cells, 3> here, around;
   std::array<int, 5> as_bright{};
@@ -90,7 +90,7 @@ void report(const std::string& name, const Show& show, bool instants) {
     state.projection = Domemaster{kSize};
     std::rotate(here.begin(), here.begin() + 1, here.end());
     std::rotate(around.begin(), around.begin() + 1, around.end());
-    here[2] = cells_of(show, state, skies, optics, instants);
+    here[2] = cells_of(show, state, skies, lenses, instants);
     around[2] = spread(here[2]);
     // A cut is a change that the show asks for.
     if (frame < 2 || frame_state(show, frame - 2).segment != state.segment) continue;
@@ -120,6 +120,7 @@ void report(const std::string& name, const Show& show, bool instants) {
 Show random_orbit(std::mt19937& random) {
   std::uniform_real_distribution<double> part(0, 1);
   Show show;
+  show.spacetime = Schwarzschild{};
   show.projection = Domemaster{kSize};
   show.hole_at = {V3d(part(random) - 0.5, part(random) - 0.5, part(random) - 0.5).normalized()};
   for (const SkyRegion sky : kExteriorSkies)

@@ -1,8 +1,11 @@
-# What the scripts share: a folder of their own, and checks that say what went wrong.
+# What the scripts share: a folder of their own, in which they run, and checks that say what went wrong.
 set -euo pipefail
 : "${DOMEFALL:?the program under test}" "${DOMEFALL_SOURCE:?the source tree}"
+# shellcheck disable=SC2034 # for what lies beside a script
+here=$(cd "$(dirname "$0")" && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+cd "$folder"
 
 fail() {
   printf 'FAILED: %s\n' "$*" >&2
@@ -38,18 +41,41 @@ timeline:
 END
 }
 
-# A show of 60 frames, on which little is to be seen, for tests of what is written.
+# ended CODE PROCESS: what was started in the background ends with that code.
+ended() {
+  local code=0
+  wait "$2" 2>/dev/null || code=$?
+  [ "$code" -eq "$1" ] || fail "exit code $code instead of $1: $(cat stderr)"
+}
+
+# tells PATTERN: what the last command wrote to stdout matches.
+tells() { grep -qE -- "$1" "$folder/stdout" || { cat "$folder/stdout" >&2; fail "no '$1'"; }; }
+
+# write_grid_show FILE [SIZE SECONDS RATE]: a show on which little is to be seen, for tests of what is written.
 write_grid_show() {
   cat >"$1" <<END
-frames_per_second: 12
-size: 64
+frames_per_second: ${4:-12}
+size: ${2:-64}
 black_hole: {mass_solar: 4.3e6}
 sky: {region_I: {background: grid, stars: none}}
-timeline: [{duration_s: 5, trajectory: {type: infall, from_r: 6, to_r: 2.5}}]
+timeline: [{duration_s: ${3:-5}, trajectory: {type: infall, from_r: 6, to_r: 2.5}}]
 END
 }
 
-# same_frames A B: both folders hold the same files with the same bytes.
+# write_flat_show FILE SIZE SECONDS: a show without a hole, 4 graded frames a second, for tests of what
+# becomes of frames.
+write_flat_show() {
+  cat >"$1" <<END
+title: A short fall
+frames_per_second: 4
+size: $2
+sky: {region_I: {background: grid, stars: none}}
+output: {linear: none}
+timeline: [{duration_s: $3}]
+END
+}
+
 # same_pixels FILE FILE, whatever else the files say.
 same_pixels() { oiiotool "$1" "$2" --fail 0 --diff >/dev/null 2>&1; }
+# same_frames A B: both folders hold the same files with the same bytes.
 same_frames() { diff -r "$1" "$2" >/dev/null || fail "$1 and $2 differ: $(diff -rq "$1" "$2" | head -3)"; }

@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
 # Bash completes verbs, options, the words that a value may be, shows, files and folders.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 export LC_ALL=C  # the order of letters
 # shellcheck source=/dev/null
-source "$(dirname "$DOMEFALL")/manual/completions/domefall"
+source "$DOMEFALL_SOURCE/pipeline/program/install/domefall.bash"
+PATH=$(dirname "$DOMEFALL"):$PATH
 complete -p domefall | grep -q -- '-F _domefall domefall' || fail "nothing completes domefall"
 mkdir -p frames "my shows"
 touch fall.yaml flyby.yml notes.txt "my shows/far.yaml" mix.wav

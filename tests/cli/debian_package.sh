@@ -1,18 +1,16 @@
 #!/usr/bin/env bash
 # CPack makes a Debian package of which lintian has nothing to say, whose program runs, and whose
 # bytes do not depend on when it is made.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 for program in cpack lintian dpkg-deb; do
   command -v "$program" >/dev/null || { echo "skipped: no $program"; exit 77; }
 done
-cd "$folder"
 export LC_ALL=C.UTF-8  # Perl would tell of a locale that is not there
 build=$(dirname "$DOMEFALL")
 
 # The maps and the gallery, nine tenths of the bytes, are left out: packing them takes most of the time.
 cat >small_tree.cmake <<END
-include($DOMEFALL_SOURCE/pipeline/install/debian_tree.cmake)
+include($DOMEFALL_SOURCE/pipeline/program/install/debian_tree.cmake)
 file(GLOB maps \${root}/share/domefall/assets/*.sky \${root}/share/domefall/assets/*.exr)
 file(REMOVE_RECURSE \${maps} \${doc}/docs/gallery)
 END

@@ -1,39 +1,13 @@
 #!/usr/bin/env bash
 # A dome's own light: render, grade and preview add it or take it away, and only graded frames change.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_show plain.yaml
 sed 's/A short fall/A short fall in a dome/' plain.yaml >fall.yaml
 { cat fall.yaml; echo 'dome: {light: simulate}'; } >simulate.yaml
 { cat fall.yaml; echo 'dome: {light: compensate}'; } >compensate.yaml
 
-# light IMAGE: the mean of its 16-bit codes
-light() {
-  python3 - "$1" <<'END2'
-import struct, sys, zlib
-data = open(sys.argv[1], 'rb').read()
-width, height = struct.unpack('>II', data[16:24])
-at, packed = 8, b''
-while at < len(data):
-    size, kind = struct.unpack('>I4s', data[at:at + 8])
-    if kind == b'IDAT':
-        packed += data[at + 8:at + 8 + size]
-    at += 12 + size
-raw, stride, above, total = zlib.decompress(packed), width * 6, bytes(width * 6), 0
-for y in range(height):
-    kind, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-    for x in range(stride):
-        a, b = line[x - 6] if x >= 6 else 0, above[x]
-        c = above[x - 6] if x >= 6 else 0
-        p = a + b - c
-        paeth = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-        line[x] = (line[x] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
-    above = bytes(line)
-    total += sum(struct.unpack(f'>{3 * width}H', above))
-print(total // (3 * width * height))
-END2
-}
+# light IMAGE: the mean of its codes, of 2^40
+light() { oiiotool "$1" --echo '{TOP.AVGCOLOR}' | awk -F, '{ printf "%.0f", 2 ^ 40 / 3 * ($1 + $2 + $3) }'; }
 ordered() { # ordered COMPENSATED PLAIN SIMULATED: three images, from dark to bright
   [ "$(light "$1")" -lt "$(light "$2")" ] || fail "$1 is not darker than $2"
   [ "$(light "$2")" -lt "$(light "$3")" ] || fail "$3 is not brighter than $2"
@@ -66,6 +40,3 @@ exits 0 "$DOMEFALL" render show.yaml --frames 2 --out none
 cp fall.yaml show.yaml
 exits 0 "$DOMEFALL" render show.yaml --frames 2 --out none
 says '^0 frames made'
-echo 'camera: {projection: stereographic}' >>simulate.yaml
-exits 2 "$DOMEFALL" check simulate.yaml
-says 'simulate.yaml:[0-9]+:[0-9]+: dome.light is for domes; this projection is flat$'

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # What may happen to the folder of a run: each with a line that names the place, at once, and with the
 # code by its cause. 2 where the path can never be right, 75 where it may be in a minute or elsewhere.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 chmod 755 "$folder"
 write_show fall.yaml
 render() { timeout 20 "$DOMEFALL" render fall.yaml --frames 0-2 "$@"; }

@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # Segments and keyframes with CDLs of their own: only the frames whose CDL changes are graded again.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_show() { # write_show SLOPE SATURATION: of the second segment, and at the end of the third
   cat >show.yaml <<END2
 frames_per_second: 4

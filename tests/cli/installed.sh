@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # What is installed runs from wherever it is put, with nothing of the source tree or the build in
 # reach, and makes the frames of the program in the build.  The launchers find it.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 build=$(dirname "$DOMEFALL")
 
 # Staged as packagers do, for a prefix that it then leaves.
@@ -66,4 +64,4 @@ for page in moved/share/man/man1/*.1; do
   [ ! -s warnings ] || fail "$page: $(head -3 warnings)"
 done
 groff -man -Tascii -P-cbou moved/share/man/man1/domefall-movie.1 >page
-grep -q -- '--preset review|dome|dome8k|master|hap|vr360' page || fail "the presets are not listed"
+grep -q -- '--preset {review,dome,dome8k,master,hap,vr360}' page || fail "the presets are not listed"

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # DOMEFALL_SIMD has the loops run as on a lesser processor: the same files, to the last byte.  What it
 # cannot mean is told before anything is made.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 cat >skies.yaml <<'END'
 size: 192
 black_hole: {mass_solar: 10}

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # render --lens-map: the numbers of `probe`, a picture that oiiotool lenses by them as we do, and files
 # that are whole, resumed and protected as frames are.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 
 # A picture of the whole sky without a seam, grey, so that no primaries are in the way.
 python3 - <<'END'

@@ -7,8 +7,11 @@ sizes; with --rate it only plays for that time and says how many pictures a seco
 
 import argparse
 import base64
+import os
+import pathlib
 import subprocess
 import sys
+import tempfile
 import time
 
 from selenium import webdriver
@@ -194,11 +197,30 @@ def drive(page, show):
         return [(at.left + at.right) / 2, (at.top + at.bottom) / 2]; })()''')
     assert any(abs(x - middle[0]) < 4 and abs(y - middle[1]) < 4 for x, y in rings), (rings, middle)
 
+    # What a show says is text, whatever it looks like.
+    markup = """</title><img src=x onerror='document.body.id=1'><script>document.body.id=1</script>"""
+    show.write_text(text.replace('A short fall', f'"{markup}"').replace(
+        'timeline:', f'markers: {{"{markup}": 1}}\ntitles: [{{text: "{markup}", at_s: 1}}]\ntimeline:'))
+    page.until('window.domefall.revision == 5', 'the show that looks like a page')
+    assert page.element('title').text == markup, page.element('title').text
+    assert page.ask('document.title').startswith(markup)
+    show.write_text(text.replace('A short fall', f'[{markup}'))
+    page.until('window.domefall.mistake', 'the mistake that looks like a page')
+    assert not page.ask('document.body.id || document.querySelector("img")'), 'a show wrote into its page'
+
     page.keys('s')
     page.until('window.domefall.saved > 1000', 'the saved picture')
     page.until('window.domefall.noted', 'the notes of check')
     assert page.element('warnings').text
     assert not page.log(), page.log()
+
+
+def follow_link(page, url):
+    """The printed address is a link in the page of another site, as it is in a mail or a chat."""
+    page.window.get(f'data:text/html,<a href="{url}">{url}</a>')
+    page.window.find_element(By.TAG_NAME, 'a').click()
+    page.until('window.domefall && window.domefall.ready', 'the page behind a link')
+    assert page.ask('location.href') == url
 
 
 def rate(page, seconds):
@@ -227,8 +249,21 @@ def shots(page, folder):
         (folder / f'{name}.png').write_bytes(base64.b64decode(picture['data']))
 
 
+def serve(domefall, show, folder):
+    """The server, the address that it prints, and the file that it has opened on a desktop."""
+    opener, opened = folder / 'xdg-open', folder / 'opened'
+    opener.write_text(f'#!/bin/sh\nprintf %s "$1" >"{opened}.new"\nmv "{opened}.new" "{opened}"\n')
+    opener.chmod(0o700)
+    desktop = os.environ | {'DISPLAY': os.environ.get('DISPLAY', ':9'), 'PATH': f'{folder}:{os.environ["PATH"]}'}
+    server = subprocess.Popen([domefall, 'preview', show], stdout=subprocess.PIPE, text=True, env=desktop)
+    url, end = server.stdout.readline().strip(), time.monotonic() + PATIENCE
+    while not opened.exists():
+        assert time.monotonic() < end and server.poll() is None, 'nothing was opened'
+        time.sleep(0.02)
+    return server, url, opened.read_text()
+
+
 def main():
-    import pathlib
     parser = argparse.ArgumentParser()
     parser.add_argument('domefall')
     parser.add_argument('show', type=pathlib.Path)
@@ -236,16 +271,17 @@ def main():
     parser.add_argument('--rate', type=float)
     parser.add_argument('--frame', type=int, default=0)
     given = parser.parse_args()
-    server = subprocess.Popen([given.domefall, 'preview', given.show, '--no-open'], stdout=subprocess.PIPE, text=True)
+    with tempfile.TemporaryDirectory() as folder:
+        server, url, opened = serve(given.domefall, given.show, pathlib.Path(folder))
     try:
-        url = server.stdout.readline().strip()
         try:
             window = browser()
         except WebDriverException as error:
             print(f'no browser can be started here: {error}')
             sys.exit(77)
         try:
-            page = Page(window, url)
+            page = Page(window, 'file://' + opened)
+            assert page.ask('location.href') == url
             if given.frame:
                 page.ask(f'window.domefall.play.time = {given.frame} / 30')
                 page.keys(Keys.ARROW_RIGHT)
@@ -256,6 +292,7 @@ def main():
                 shots(page, given.shots)
             else:
                 drive(page, given.show)
+                follow_link(page, url)
         finally:
             window.quit()
     finally:

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # Shows as long as a show file may be are read and followed in seconds. Each step that looks at all
 # segments for each segment would take a minute or more.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 
 # segments COUNT TEXT: as many lines
 segments() { awk -v n="$1" -v text="$2" 'BEGIN { for (; n > 0; --n) print text }'; }

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # A file that a show names and that is not there may be there on another machine, or in a minute:
 # 75, so that a farm tries elsewhere. What the show itself says wrongly stays 2.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 
 # shown YAML: a show of one still with these lines
 shown() { printf '%s\ntimeline: [{duration_s: 1}]\n' "$1" >show.yaml; }

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # A node with a lesser processor: its sines differ in the last bits, yet it knows this node's frames for
 # good, and makes the same ones.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 cat >orbit.yaml <<'END'
 size: 64
 black_hole: {mass_solar: 10}

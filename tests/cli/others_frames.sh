@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # A folder belongs to a show and a size: what a run finds there, what it says of it, what it refuses.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_show fall.yaml
 run() { "$DOMEFALL" render "$@"; }
 # untouched FOLDER: nothing in it was written since it was dated back.
@@ -100,7 +98,7 @@ exits 0 run none/fall.yaml --frames 4-17 --out edited
 says '^segments 1 and 2: 13 frames will be made again$'
 {
   cat fall.yaml
-  echo 'grade: {view: Star log}'
+  echo 'grade: {view: Star field}'
 } >none/fall.yaml
 exits 0 "$DOMEFALL" grade none/fall.yaml --frames 0-3 --out out
 says '^segment 1: 4 frames will be graded again$'

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # What a show's `output` says of its files: which there are, what they are called, and that each kind
 # is resumed and verified alike.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_output() { # write_output FILE OUTPUT [LINE...]: 4 small frames
   cat >"$1" <<END
 frames_per_second: 4

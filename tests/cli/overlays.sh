@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # Overlays are drawn where they are asked for, and frames with them are another show's: they do not
 # take the place of finished ones, nor the other way round.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 
 cat >show.yaml <<'END'
 title: Plain
@@ -42,6 +40,8 @@ exits 0 "$DOMEFALL" movie show.yaml --preset review --overlay rim --out rim.mp4
 exits 0 "$DOMEFALL" movie show.yaml --preset hap --from drawn --overlay "$all" --out drawn.mov
 
 exits 2 "$DOMEFALL" render show.yaml --overlay ''
-says '^--overlay: got no name'
+says "^argument 4, after '--overlay', is empty"
+exits 2 "$DOMEFALL" render show.yaml --overlay ,
+says '^--overlay ,: overlays are grid, '
 exits 2 "$DOMEFALL" render show.yaml --overlay rim,einstien_ring
 says '^--overlay rim,einstien_ring: overlays are grid, .* did you mean einstein_ring'

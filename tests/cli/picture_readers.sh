@@ -1,10 +1,8 @@
 #!/usr/bin/env bash
 # Other programs read every kind of file that a frame can be, and see the same pixels.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_show show.yaml
-sed 's/^timeline/output: {graded: tiff}\n&/' show.yaml >tiff.yaml
+sed 's/^timeline/output: {graded: tiff16}\n&/' show.yaml >tiff.yaml
 exits 0 "$DOMEFALL" render show.yaml --frames 3 --size 200 --out out
 exits 0 "$DOMEFALL" render tiff.yaml --frames 3 --size 200 --out out
 exits 0 "$DOMEFALL" preview show.yaml --frame 3 --size 200x160 --out out/still.jpg

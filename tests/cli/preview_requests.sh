@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # domefall preview: what it serves, to whom, and that no request brings it down.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 trap 'kill ${server:-} ${holder:-} 2>/dev/null || true; rm -rf "$folder"' EXIT
 # serve SHOW: starts the preview $server at $url.
 serve() {
@@ -86,8 +84,12 @@ for name in re.findall(rb'(?:src|href)="([^"]+)"', page):
     assert get(name.decode())[0] == 200, name
 assert not re.search(rb'https?://(?!127)', page.replace(b'http://www.w3.org/', b'')), 'no other host'
 
-status, headers, part = get('', [('Range', 'bytes=0-9')])
-assert status == 206 and part == page[:10] and headers['Content-Range'].startswith('bytes 0-9/')
+# No part of a file is sent, and no more than the file.
+for parts in ('0-9', ','.join(f'{k}-' for k in range(2600))):
+    status, headers, whole = get('', [('Range', f'bytes={parts}')])
+    assert status == 200 and whole == page and 'Content-Range' not in headers
+status, headers, body = get('', method='HEAD')
+assert status == 200 and body == b'' and int(headers['Content-Length']) == len(page)
 status, headers, text = get('nothing')
 assert status == 404 and text == b'the preview has no such page\n', text
 
@@ -105,22 +107,84 @@ assert about['frame'] == 6 and about['projection'] == 'stereographic' and len(ab
 again = get(picture)[2]
 assert scan(before) == scan(again)
 
-# Only this page, from this machine, with the token.
+# Only this page, from this machine, with the token.  A refusal says why.
 port = host.split(':')[1]
 other = f'http://{host}/'
-assert get('', base=other)[0] == 403
-assert get(f'{"0" * 32}/', base=other)[0] == 403
-assert get(f'{token[:-1]}/', base=other)[0] == 403
+
+
+def refused(words, path='show', headers=(), **more):
+    status, _, text = get(path, headers, **more)
+    assert status == 403 and words in text.decode(), (path, headers, more, status, text[:200])
+
+
+for path in ('', f'{"0" * 32}/', f'{token[:-1]}/', f'{token}x/', f'{token}%2f', f'/{token}/'):
+    refused('is not the address that domefall preview has printed', path, base=other)
 for path in ('../../etc/passwd', '%2e%2e/%2e%2e/etc/passwd', 'fall.yaml', '/etc/passwd', 'page/../show.h'):
     assert get(path)[0] in (403, 404), path
 for name, value in (('Host', 'evil.example'), ('Host', f'evil.example:{port}'), ('Origin', 'http://evil.example'),
                     ('Origin', 'null'), ('Origin', f'http://127.0.0.1:{int(port) + 1}'),
                     ('Sec-Fetch-Site', 'cross-site'), ('Sec-Fetch-Site', 'same-site')):
-    assert get('show', [(name, value)])[0] == 403, (name, value)
+    refused(f'({name})', headers=[(name, value)])
 assert get('show', [('Origin', f'http://{host}'), ('Sec-Fetch-Site', 'same-origin')])[0] == 200
 assert get('show', [('Host', 'localhost:1')])[0] == 200, 'a tunnel may end at another port'
 for method in ('POST', 'PUT', 'DELETE', 'OPTIONS', 'PATCH'):
-    assert get('show', method=method)[0] == 403, method
+    refused('GET and HEAD only', method=method)
+
+# A link to the address is followed, wherever it stands.
+for site in ('cross-site', 'same-site'):
+    link = [('Sec-Fetch-Site', site), ('Sec-Fetch-Mode', 'navigate'), ('Sec-Fetch-Dest', 'document')]
+    assert get('', link)[2] == page, site
+    assert get(token, link, base=other)[2] == page, 'the last slash is missing'
+    refused('is not the address', 'x/', link, base=other)
+    refused('GET and HEAD only', '', link, method='POST')
+    refused('(Origin)', '', link + [('Origin', 'http://evil.example')])
+    for mode, dest in (('navigate', 'iframe'), ('no-cors', 'document'), ('cors', 'empty'), ('no-cors', 'script')):
+        refused('(Sec-Fetch-Site)', '', [link[0], ('Sec-Fetch-Mode', mode), ('Sec-Fetch-Dest', dest)])
+
+
+def said(sent):
+    """All that the server says until it closes the connection, and how long that takes."""
+    with socket.create_connection(('127.0.0.1', int(port)), timeout=60) as connection:
+        connection.sendall(sent)
+        began, came = time.monotonic(), b''
+        while piece := connection.recv(65536):
+            came += piece
+    return came, time.monotonic() - began
+
+
+# What comes with or behind a refused request is no request: a page may have any body sent.
+start = f' /{token}/show HTTP/1.1\r\nHost: {host}\r\n'.encode()
+inner = b'GET' + start + b'\r\n'
+length, evil = b'Content-Length: %d\r\n' % len(inner), b'Origin: http://evil.example\r\n'
+chunks = b'%x\r\n' % len(inner) + inner + b'\r\n0\r\n\r\n'
+chunked = b'Transfer-Encoding: chunked\r\n'
+for method in (b'POST', b'GET', b'HEAD', b'PUT'):
+    for fields, body in ((length, inner), (chunked, chunks), (chunked + length, chunks), (length + chunked, chunks),
+                         (b'Transfer-Encoding: gzip\r\n', inner), (b'Transfer-Encoding: chunked, gzip\r\n', chunks),
+                         (length + b'Content-Length: 3\r\n', inner), (b'Content-Length: 0\r\n' + length, inner),
+                         (b'Content-Length: 3, 3\r\n', inner), (b'Content-Length: 99999999999\r\n', inner),
+                         (b'Content-Length: -1\r\n', inner), (b'Expect: 100-continue\r\n' + length, inner),
+                         (b'content-length : 3\r\n', inner)):
+        for origin in (b'', evil):
+            came, _ = said(method + start + origin + fields + b'\r\n' + body)
+            assert came.count(b'HTTP/1.1 ') == 1 and re.match(rb'HTTP/1.1 40[03] ', came), (method, fields, came)
+            assert b'\r\nConnection: close\r\n' in came and b'"states"' not in came, (method, fields, came)
+came, _ = said(b'GET' + start + evil + b'\r\n' + inner)
+assert came.count(b'HTTP/1.1 ') == 1 and b'403 ' in came[:20], came
+came, _ = said(b'GET' + start + b'Host: evil.example\r\n\r\n')
+assert b'403 ' in came[:20] and b'(Host)' in came, came
+came, took = said(inner * 3)
+assert came.count(b'HTTP/1.1 200 ') == 3 and took < 20, (came[:100], took)
+came, _ = said(b'GET' + start + b'X: ' + b'y' * 70_000 + b'\r\n\r\n')
+assert came.startswith(b'HTTP/1.1 400 ') and b'longer than 64 KiB' in came, came
+came, _ = said(b'GET' + start + b'X: ' + b'y' * 60_000 + b'\r\nConnection: close\r\n\r\n')
+assert came.startswith(b'HTTP/1.1 200 '), came[:100]
+came, _ = said(b'\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03 as a browser that tries TLS\r\n\r\n')
+assert came.startswith(b'HTTP/1.1 400 ') and b'is no request of HTTP' in came, came
+for silent in (b'', b'GET /', b'GET' + start):
+    came, took = said(silent)
+    assert came == b'' and took < 20, (came, took)
+
 addresses = ['127.0.0.2']
 try:
     addresses.append(socket.gethostbyname(socket.gethostname()))
@@ -199,7 +263,7 @@ with socket.create_connection(('127.0.0.1', int(port)), timeout=10) as drip:
         pass
     assert time.monotonic() - began < 10
 
-# 500 at once that say half of a request, and 100 that say nothing.
+# 500 at once that say half of a request, and 100 that say nothing.  The page is answered meanwhile.
 slow = []
 for k in range(600):
     try:
@@ -209,6 +273,7 @@ for k in range(600):
     except OSError:
         pass
 assert len(slow) > 100
+assert get('')[2] == page
 for half in slow:
     half.close()
 
@@ -222,9 +287,44 @@ END
 
 # It ends as other programs do, and leaves nothing behind.
 kill -TERM "$server"
-code=0
-wait "$server" || code=$?
-[[ $code == 143 ]] || fail "ended with $code: $(cat said)"
+ended 143 "$server"
+
+# The browser is given a file that only this user can read, nothing that is a secret, and no socket.
+mkdir desktop "quiet place"
+cat >desktop/xdg-open <<'END'
+#!/bin/sh
+{
+  echo "$#" "$(stat -c %a "$1" "$(dirname "$1")" | xargs)"
+  find /proc/self/fd -lname 'socket:*'
+} >given.new
+cp "$1" opened.html
+printf '%s\n' "$1" >argument
+mv given.new given
+END
+chmod +x desktop/xdg-open
+rm -f address
+(umask 0 && DISPLAY=:9 TMPDIR="$folder/quiet place" PATH="$folder/desktop:$PATH" \
+  exec "$DOMEFALL" preview fall.yaml >address 2>said) &
+server=$!
+for ((k = 0; k < 1000; ++k)); do [[ -e given ]] && break; sleep 0.02; done
+url=$(head -n 1 address)
+[[ $(<given) == "1 600 700" ]] || fail "the opener was given what others may read: $(<given)"
+! grep -q "$(basename "$url")" argument || fail "the token stands in the opener's arguments: $(<argument)"
+[[ $(<argument) == "$folder/quiet place/"*.html ]] || fail "the opener was given $(<argument)"
+grep -qF "url=$url\"" opened.html || fail "the opened page does not lead to $url: $(<opened.html)"
+kill -TERM "$server"
+wait "$server" || true
+[[ ! -e $(<argument) && -z $(ls "quiet place") ]] || fail "the opened page was left behind"
+
+# Without a place for that file there is no browser, but there is the preview.
+DISPLAY=:9 TMPDIR="$folder/nowhere" PATH="$folder/desktop:$PATH" "$DOMEFALL" preview fall.yaml >address 2>said &
+server=$!
+for ((k = 0; k < 1000; ++k)); do [[ -s said ]] && break; sleep 0.02; done
+grep -q '^no browser was opened: ' said || fail "it does not say that no browser was opened: $(<said)"
+python3 -c 'import sys, urllib.request; urllib.request.urlopen(sys.argv[1])' "$(head -n 1 address)" ||
+  fail "the preview is gone with its browser"
+kill -TERM "$server"
+wait "$server" || true
 
 # What cannot be served is told.
 exits 2 "$DOMEFALL" preview fall.yaml --no-open --frame 3

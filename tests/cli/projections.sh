@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # Pictures in every projection: against ffmpeg's v360 of a dome's, and what `probe` says of a
 # direction in each of them.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 command -v ffmpeg >/dev/null || exit 77
 
 # write_picture FILE SIZE CAMERA WIDTH: soft stars around the hole.

@@ -2,15 +2,12 @@
 # The Python module gives the numbers of the program: states, rays, frames and graded frames, bit
 # for bit, in the build tree and installed.  It loads little, its errors are Python's, and Ctrl-C
 # ends its work.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
 [ -n "${DOMEFALL_PYTHON:-}" ] || exit 77  # built without the module
 "$DOMEFALL_PYTHON" -c 'import numpy' || exit 77
-here=$(cd "$(dirname "$0")" && pwd)
 build=$(dirname "$DOMEFALL")
 export PYTHONDONTWRITEBYTECODE=1
 python() { exits 0 env PYTHONPATH="$build/python" "$DOMEFALL_PYTHON" "$@"; }
-cd "$folder"
 
 # A dome that falls through the horizon, and a flat picture with an open shutter and a dissolve.
 write_show dome.yaml
@@ -58,28 +55,29 @@ for found in 'formula by at most [0-9.]*e-1[3-9] M' 'formulas by at most [0-9.]*
   grep -qE -- "$found" stdout || { cat stdout; fail "the lesson did not find '$found'"; }
 done
 
-# Neither numpy nor the libraries of images and text are loaded before they are needed.
+# Neither numpy nor the libraries of images are loaded before they are needed.
 python - <<'END'
 import sys
 import domefall
 assert "numpy" not in sys.modules
 domefall.Show("dome.yaml").frame(3)
 maps = open("/proc/self/maps").read()
-assert "TBB" in maps.upper() and "OpenImageIO" not in maps and "pango" not in maps
+assert "TBB" in maps.upper() and "OpenImageIO" not in maps
 END
 
-# An installed module finds its assets beside it, as a damaged one shows, and the libraries that it
+# An installed module finds its assets beside it, as a damaged one shows, and the library that it
 # loads.
 cmake --install "$build" --prefix "$folder/prefix" >/dev/null
 module=$(find prefix -name 'domefall*.so')
 [ -f "$(dirname "$module")/domefall.pyi" ] || fail "no types stand beside $module"
-printf '%s\n' 'titles: [{text: Vega, at_s: 1}]' >>dome.yaml
+printf '%s\n' "sky: {region_I: {background: $DOMEFALL_SOURCE/shows/assets/milky_way.exr, stars: none}}" \
+  'timeline: [{duration_s: 1}]' >panorama.yaml
 exits 0 env PYTHONPATH="$(dirname "$module")" "$DOMEFALL_PYTHON" - <<'END'
 import os
 import domefall
 assert domefall.__file__.endswith(".so") and "prefix" in domefall.__file__, domefall.__file__
-domefall.Show("dome.yaml").frame(12)
-assert "prefix/lib/domefall/modules/libdomefall_pango_lettering.so" in open("/proc/self/maps").read()
+domefall.Show("panorama.yaml").frame(1)
+assert "prefix/lib/domefall/modules/libdomefall_openimageio.so" in open("/proc/self/maps").read()
 sky = "prefix/share/domefall/assets/milky_way.sky"
 os.truncate(sky, 1000)
 try:

@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # The ten-line show of the README is ten lines long and does what it says.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 awk '/^    title: /, /^$/' "$DOMEFALL_SOURCE/README.md" | sed 's/^    //; /^$/d' >around.yaml
 [ "$(wc -l <around.yaml)" -eq 10 ] || fail "not ten lines"
 exits 0 "$DOMEFALL" check around.yaml

@@ -2,10 +2,8 @@
 # What the system may refuse to whoever writes a file, one refusal at a time: what can be another way on another
 # machine or a minute later is 75, what can never be is 2, and what can be done without does not matter. The old
 # file stays, and nothing else.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-refusing=$(dirname "$(realpath "$0")")/refuse_calls.py
-cd "$folder"
+refusing=$here/refuse_calls.py
 export LC_ALL=C
 write_grid_show tiny.yaml
 exits 0 "$DOMEFALL" stars import csv "$DOMEFALL_SOURCE/shows/assets/stars_to_8.csv" --faintest 6 --out few.stars

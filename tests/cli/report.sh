@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # domefall report: every CSV has plausible rows within the stated errors, every plot is an SVG document, the pages
 # link only to what is there; and without gnuplot it says so before it works.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 
 exits 0 "$DOMEFALL" report --out report --quick --figures
 python3 - report <<'END'
@@ -25,19 +23,15 @@ assert classes == {('I', 'ordinary'), ('I', 'edge'), ('I', 'far'), ('II', 'ordin
                    ('II', 'deep'), ('IV', 'ordinary'), ('IV', 'deep')}, classes
 methods = {row['method'] for row in rays}
 assert len(methods) == 7, methods
-# The default of each method, once for every class. Stated in the headers of pipeline/optics: 1e-9 for the table,
-# 1e-13 for the integral (far away phi of a small angle is less certain than its angle); the integrators
-# err by some times the tolerance, 1e-9, on the sky but for rays near the extremum of phi, which region IV sees.
-limit = {'table': 1e-9, 'exact': 1e-12}
+# The default of each method, once for every class.  Of the table and the integral RayErrors knows the bounds; the
+# integrators err by some times the tolerance, 1e-9, on the sky but for rays near the extremum of phi, which region
+# IV sees.
 for method in methods:
     default = [row for row in rays if row['method'] == method and row['is_default'] == '1']
     assert len(default) == len(classes), (method, len(default))
     for row in default:
-        assert float(row['sky_99']) <= float(row['sky_worst']) < limit.get(method, 1e-5), row
-        assert float(row['ns_per_ray']) > 1, row
-        if method in limit:
-            assert row['undecided'] == '0' and float(row['phi_worst']) < 1e-9, row
-        elif row['difficulty'] != 'edge':
+        assert float(row['sky_worst']) < 1e-5 and float(row['ns_per_ray']) > 1, row
+        if row['difficulty'] != 'edge':
             assert row['undecided'] == '0' and float(row['phi_99']) < 1e-5, row
 # More digits are asked for, more are had.
 for method in methods - {'exact'}:
@@ -55,43 +49,19 @@ for row in places:
     assert float(row['ns_per_place']) > 1, row
     for what in ('r', 'time'):
         assert float(row[what + '_99']) <= float(row[what + '_worst']), row
-        if row['method'] in limit:
+        if row['method'] in ('table', 'exact'):
             assert row['missing'] == '0' and 0 < float(row[what + '_worst']) < 1e-10, row
-for method in methods - set(limit):
+for method in methods - {'table', 'exact'}:
     for what in ('r_99', 'time_99'):
         coarse, *_, fine = [float(row[what]) for row in places if row['method'] == method and row['rays'] == 'others']
         assert fine < coarse / 100, (method, what, coarse, fine)
 
+# What these hold FrameErrors, FrameCosts and OrbitErrors know.
 frames = rows('frames.csv', ['rms', 'worst', 'seconds', 'copies'])
-scenes = {row['scene'] for row in frames}
-assert len(scenes) >= 2, scenes
-for scene in scenes:
-    by_setting = {row['setting']: float(row['rms']) for row in frames if row['scene'] == scene}
-    assert len(by_setting) >= 5, by_setting
-    usual = next(rms for setting, rms in by_setting.items() if 'default' in setting)
-    assert 0 < usual < by_setting['1 view ray'] < 0.1, by_setting
-
-# Every further star or pixel costs something, and no frame is free. (How much is what the report is for.)
 costs = rows('costs.csv', ['size', 'pixels', 'stars', 'seconds', 'copies'])
-for against in ('stars', 'pixels'):
-    series = [row for row in costs if row['against'] == against]
-    assert len(series) >= 6 and len({row['scene'] for row in series}) == 2, series
-    for a, b in zip(series, series[1:]):
-        assert float(b['seconds']) > 0 and float(b['copies']) > 0, b
-        if a['scene'] == b['scene']:
-            assert float(b[against]) > float(a[against]), (a, b)
-            assert abs(float(b['pixels']) / (math.pi / 4 * int(b['size']) ** 2) - 1) < 0.02, b
 benchmark = rows('benchmark.csv', ['size', 'rms', 'worst', 'seconds', 'copies'])
-assert {row['setting'] for row in benchmark} >= {'2 x 2 everywhere', '4 x 4 everywhere'}, benchmark
-for row in benchmark:
-    assert 0 < float(row['rms']) < 0.1 and float(row['seconds']) > 0, row
-
 orbits = rows('orbits.csv', ['energy_drift', 'angular_momentum_drift', 'norm_drift', 'r_error', 'phi_error', 'seconds'])
-closed = [row for row in orbits if row['method'] == 'closed form']
-assert len(closed) >= 4 and len(orbits) > 2 * len(closed)
-# A fall that began 77 M of proper time ago, held in one double, is 1e-9 of r from where it should be at 0.001 M.
-for row in closed:
-    assert float(row['r_error']) < (1e-9 if 'fall' in row['orbit'] else 1e-12) and float(row['norm_drift']) < 1e-9, row
+assert min(map(len, (frames, costs, orbits))) >= 10 and len(benchmark) == 3
 
 drawn = sorted(folder.glob('*/*.svg'))
 assert len(drawn) >= 16 + 2 + 3 + 2 + 6, len(drawn)

@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # kill -9 in the middle of a run, then again: no frame lost, none damaged, none made twice.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_show fall.yaml
 
 exits 0 "$DOMEFALL" render fall.yaml --out whole
@@ -93,7 +91,7 @@ says '^1 frames made'
 [ -z "$(find wall/linear -newermt 2002-01-01 -name '*.exr')" ] || fail "a new table rendered"
 
 # A regrade renders nothing; it refuses frames of another version of the show.
-sed -i '$a grade: {view: Star log}' fall.yaml
+sed -i '$a grade: {view: Star field}' fall.yaml
 touch -d '2001-01-01' broken/linear/*.exr
 exits 0 "$DOMEFALL" grade fall.yaml --out broken
 says '24 frames made'

@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # A frame is the same bytes with 1 and 2 threads, alone or in a run, in any order, from any folder.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_show fall.yaml
 exits 0 "$DOMEFALL" render fall.yaml --out one --threads 1
 exits 0 "$DOMEFALL" render fall.yaml --out two --threads 2

@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # domefall check: a page to read, and the same facts as JSON; warnings do not make it fail; a damaged file does.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 
 cat >around.yaml <<'END'
 title: "Around \"it\""
@@ -20,8 +18,6 @@ END
 
 exits 0 "$DOMEFALL" check around.yaml
 [ "$(wc -l <stdout)" -le 60 ] || fail "more than a page"
-# tells PATTERN: the page has such a line.
-tells() { grep -qE -- "$1" stdout || { cat stdout >&2; fail "no '$1'"; }; }
 tells '^title +Around "it"$'
 tells '^frames +130 at 10 a second \(13 s\), domemaster of 256 x 256$'
 tells '^graded for +Dome G2\.2 Rec\.709, Dome$'
@@ -132,3 +128,19 @@ says 'broken\.csv'
 printf 'grade: {display: Nonsuch}\ntimeline: [{duration_s: 2}]\n' >grade.yaml
 exits 2 "$DOMEFALL" check grade.yaml
 says 'Nonsuch'
+
+# Rates of video are taken for what they mean, with one note.
+rated() { # rated RATE
+  printf 'size: 64\nframes_per_second: %s\nsky: {region_I: {background: grid, stars: none}}\n%s\n' "$1" \
+    'timeline: [{duration_s: 10}]' >rated.yaml
+  exits 0 "$DOMEFALL" check rated.yaml
+}
+rated 23.98
+tells '^frames +240 at 23\.976 \(24000/1001\) a second '
+tells '^rate +23\.98 is taken for 24000/1001, the rate of video that it stands for$'
+[ "$(grep -c 23.98 stdout)" -eq 1 ] || fail "more than one note"
+exits 0 "$DOMEFALL" check rated.yaml --json
+grep -q '"frame_rate":"24000/1001","frames_per_second_written":23.98,' stdout || fail "no note in JSON: $(cat stdout)"
+rated 24000/1001
+tells '^frames +240 at 23\.976 \(24000/1001\) a second '
+! grep -q '^rate' stdout || fail "a note for a fraction"

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # A broken show ends with 2, one that lacks only files with 75; what is wrong goes to stderr, each
 # line with file:line:column, and nothing to stdout.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 
 # broken NAME PLACES: the show on stdin is refused at these places, in this order, and at no other.
 broken() {
@@ -32,9 +30,6 @@ timeline: []
 camera:
 END
 says "did you mean title\?"
-
-printf 'timeline:\n\t- {duration_s: 2}\n' | broken tab.yaml 2:1
-says 'tab.yaml:2:1: a tab cannot indent YAML'
 
 printf 'timeline: [{duration_s: 2}]\r\ntitle: caf\xe9\r\n' | broken latin.yaml 2:11
 says 'not UTF-8'

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # Where a verb is to write: a device or a pipe is written into and stays what it is, a link is followed and stays,
 # and what can hold no file is refused.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_grid_show tiny.yaml
 exits 0 "$DOMEFALL" stars import csv "$DOMEFALL_SOURCE/shows/assets/stars_to_8.csv" --faintest 6 --out few.stars
 exits 0 "$DOMEFALL" preview tiny.yaml --size 128x64 --out panorama.png

@@ -1,15 +1,7 @@
 #!/usr/bin/env bash
 # What becomes of a run whose standard streams are closed, or whose reader goes, or whose files may not grow.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
-cat >tiny.yaml <<'END'
-frames_per_second: 12
-size: 128
-black_hole: {mass_solar: 4.3e6}
-sky: {region_I: {background: grid, stars: none}}
-timeline: [{duration_s: 1, trajectory: {type: infall, from_r: 6, to_r: 2.5}}]
-END
+write_grid_show tiny.yaml 128 1
 
 # What is said to a closed stream must not go into the file that has got its number.
 exits 0 "$DOMEFALL" render tiny.yaml --out whole

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # The CSV of `domefall states` is a trajectory: given back as a path it leads to the same states, at its rows to
 # rounding and between them to the error of its cubics, whether it orbits the hole or falls into it.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 
 # given_back TRAJECTORY TURNS: a show of it, and one of a path through every fourth of its states.
 given_back() {

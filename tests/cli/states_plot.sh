@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # domefall states --plot: a page that XML readers accept, with three panels near a hole; the CSV beside it is
 # the same as without; a folder that is not there is told before anything is printed.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_show fall.yaml
 sed 's/^title: .*/title: "R\&D: <a fall> 100 %"/' fall.yaml >odd_title.yaml
 

@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # What is no regular file is told by name at once wherever a file is read, and is never waited for.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_show fall.yaml
 mkfifo pipe.exr
 mkdir folder

@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # A limit on threads or processes, whatever it is: the run is done, or ends with 75 and says why; it
 # neither breaks off without a word nor waits for ever.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_show fall.yaml
 sed -i 's/size: 96/size: 16/' fall.yaml
 # The build may lie where that user cannot look.

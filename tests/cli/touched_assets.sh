@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # A sky that is changed while a run reads it leaves no wrong frame, whenever it is put back.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 milky_way=$DOMEFALL_SOURCE/shows/assets/milky_way.exr
 oiiotool "$milky_way" --resize:filter=box 256x128 -o day.exr
 oiiotool day.exr --flop -o night.exr

@@ -1,15 +1,7 @@
 #!/usr/bin/env bash
 # A program whose talk goes into a full pipe that nobody reads still ends when it is asked to.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
-cat >tiny.yaml <<'END_OF_SHOW'
-frames_per_second: 60
-size: 16
-black_hole: {mass_solar: 4.3e6}
-sky: {region_I: {background: grid, stars: none}}
-timeline: [{duration_s: 60, trajectory: {type: infall, from_r: 6, to_r: 2.5}}]
-END_OF_SHOW
+write_grid_show tiny.yaml 16 60 60
 cat >unread_pipes.py <<'END_OF_TEST'
 import os, pathlib, signal, subprocess, sys, time
 

@@ -1,8 +1,6 @@
 #!/usr/bin/env bash
 # domefall movie --preset vr360: a movie that players know for a whole sphere.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 command -v ffmpeg >/dev/null && command -v mkvmerge >/dev/null || exit 77
 nothing_left() {
   [ ! -e "$1" ] || fail "$1 is there"
@@ -41,18 +39,38 @@ ffmpeg -v error -i out/sphere_vr360.mkv -c copy -tag:v hvc1 -strict unofficial s
 ffprobe -v error -show_streams sphere.mp4 >taken
 grep -q '^projection=equirectangular' taken || fail "the .mp4 is no sphere"
 
-# Frames of another projection are no sphere.
-sed 's/^camera:.*//' sphere.yaml >dome.yaml
-exits 2 "$DOMEFALL" movie dome.yaml --preset vr360 --out dome.mkv
-says '^--preset vr360: takes frames of the projection equirectangular, and those of this show are domemaster$'
 exits 2 "$DOMEFALL" movie sphere.yaml --preset vr360 --out sphere.mp4
 says '^--out sphere.mp4: a movie of the preset vr360 is a .mkv file$'
+
+# A title is a title, whatever programs take it for.
+echo 'keep me' >kept.txt
+printf '%s\n' --output kept.txt >options.txt
+for title in '@options.txt' '@/etc/passwd' --preset -y -o --output -h -r -w --list-types "a'b\"c" "\`touch x\`" "\$(touch x)" '%s %d' '[0:v]' 'text=' 'a=b;c' 'a\b'; do
+  python3 - "$title" <<'PY'
+import json, sys
+show = open("sphere.yaml").read()
+open("titled.yaml", "w").write(show.replace("title: Around", "title: " + json.dumps(sys.argv[1])))
+PY
+  exits 0 "$DOMEFALL" movie titled.yaml --preset vr360 --frames 0 --out titled.mkv
+  found=$(ffprobe -v error -show_entries format_tags=title -of default=nw=1:nk=1 titled.mkv)
+  [ "$found" = "$title" ] || fail "the title is $found, not $title"
+  exits 0 "$DOMEFALL" movie titled.yaml --preset review --frames 0 --out titled.mp4
+  found=$(ffprobe -v error -show_entries format_tags=title -of default=nw=1:nk=1 titled.mp4)
+  [ "$found" = "$title" ] || fail "the title is $found, not $title"
+done
+[ "$(cat kept.txt)" = 'keep me' ] || fail "a title was obeyed by mkvmerge"
+[ ! -e x ] || fail "a title was run"
 
 # Without mkvmerge nothing is begun; where it fails, nothing is kept.
 mkdir programs
 ln -s "$(command -v ffmpeg)" "$(command -v ffprobe)" programs
-exits 75 env PATH="$folder/programs" "$DOMEFALL" movie sphere.yaml --preset vr360 --out none.mkv
-says 'mkvtoolnix'
+for command in 'movie sphere.yaml --out none.mkv --preset vr360' \
+  'farm submit sphere.yaml --engine local --out none --movie vr360'; do
+  # shellcheck disable=SC2086 # several words
+  exits 75 env PATH="$folder/programs" "$DOMEFALL" $command
+  says 'mkvtoolnix'
+done
+[ ! -e none ] || fail "frames were begun"
 nothing_left none.mkv
 cat >programs/mkvmerge <<END
 #!/bin/sh
@@ -61,6 +79,11 @@ echo 'Error: it does not want to.'
 exit 2
 END
 chmod +x programs/mkvmerge
+exits 75 env PATH="$folder/programs" "$DOMEFALL" movie sphere.yaml --preset vr360 --out none.mkv
+says 'cannot make the preset vr360, .*ended with code 2'
+says 'it does not want to'
+# One that is content with the trial, and fails later.
+sed -i "2a [ -e tried ] || { : >tried; exec $(command -v mkvmerge) \"\$@\"; }" programs/mkvmerge
 exits 1 env PATH="$folder/programs" "$DOMEFALL" movie sphere.yaml --preset vr360 --out none.mkv
 says '^.*none.mkv: mkvmerge, which says that it is a sphere, ended with code 2'
 says 'it does not want to'

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Verbs that do not exist and numbers out of range are told in plain words, and end with 2.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/common.bash"
-cd "$folder"
 write_grid_show show.yaml
 
+# An option is no value of the one before it.
+exits 2 "$DOMEFALL" farm submit show.yaml --engine local --out frames --deliver --dry-run
+says '^--deliver: got the option --dry-run; a file of this name is \./--dry-run$'
 exits 2 "$DOMEFALL" movie show.yaml
 says '^--preset is required'
 exits 2 "$DOMEFALL" movie show.yaml --preset vr360

@@ -1,11 +1,16 @@
 #!/usr/bin/env bash
-# What the tests of the launchers share; to be sourced. A test sets up its own scratch folder,
-# $scratch, which goes away when it ends.
+# What the tests of the launchers share; to be sourced. A test runs in a scratch folder of its own,
+# $scratch, which goes away when it ends, and finds a show there, fall.yaml.
+set -euo pipefail
 
 : "${DOMEFALL:?the program under test}" "${DOMEFALL_SOURCE:?the source tree}"
 export DOMEFALL
 # Short, and outside the source: the paths of sockets have at most 107 bytes.
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/farm.XXXXXX")
+trap 'end_marked; rm -rf "$scratch"' EXIT
+# shellcheck disable=SC2034 # for what lies beside a test
+here=$(cd "$(dirname "$0")" && pwd)
+cd "$scratch"
 # Processes that this test started, and theirs, are known by this mark in their environment.
 export DOMEFALL_FARM_TEST=$scratch
 
@@ -14,6 +19,21 @@ fail() {
   exit 1
 }
 pass() { printf 'ok (%2d s): %s\n' "$SECONDS" "$*"; }
+
+# try_claims CLAIM...: runs these functions in their order.
+try_claims() {
+  local claim
+  for claim in "$@"; do
+    $claim
+    pass "$claim"
+  done
+}
+# The same of all functions that the test writes over several lines, but for what it begins before.
+try_all_claims() {
+  local claims
+  mapfile -t claims < <(sed -n '/^begin_/d; s/^\([a-z_0-9]*\)() {$/\1/p' "$here/${0##*/}")
+  try_claims "${claims[@]}"
+}
 
 # until_ok SECONDS command...: polls until the command succeeds.
 until_ok() {
@@ -61,8 +81,7 @@ killed_marked() {
 }
 
 # A fall through the horizon, of 40 frames: one region and both, stars and the Milky Way.
-write_show() {
-  cat >"$1" <<'YAML'
+cat >fall.yaml <<'YAML'
 title: A fall for the farm
 frames_per_second: 10
 size: 64
@@ -73,7 +92,6 @@ timeline:
   - {duration_s: 2, trajectory: {type: infall, from_r: 30, to_r: 4}}
   - {duration_s: 2, trajectory: {type: infall, from_r: 4, to_r: 0.5}}
 YAML
-}
 
 # same_frames A B COUNT: B holds the first COUNT frames of A, byte by byte, linear and graded, and
 # no other file, hidden ones not counted.
@@ -115,3 +133,61 @@ still_made() { [[ -z $(comm -23 "$1" <(made "$2")) ]]; }
 # How many linear frames are there.
 frames_in() { find "$1/linear" -name 'fall_*.exr' 2>/dev/null | wc -l; }
 at_least() { (($(frames_in "$1") >= $2)); }
+
+# ---- what is submitted ----
+
+# code_of LOG command...: runs it and prints its exit code.
+code_of() {
+  local log=$1 code=0
+  shift
+  "$@" >"$log" 2>&1 || code=$?
+  echo "$code"
+}
+expect() { # expect CODE LOG command...
+  local code
+  code=$(code_of "${@:2}")
+  [[ $code == "$1" ]] || {
+    cat "$2" >&2
+    fail "${*:3}: exit code $code, not $1"
+  }
+}
+says() { grep -qF -e "$2" "$1" || { cat "$1" >&2; fail "$1 does not say: $2"; }; }
+says_not() { ! grep -qF -e "$2" "$1" || { cat "$1" >&2; fail "$1 says: $2"; }; }
+
+# The id of the only plan in a folder.
+plan_in() {
+  local id
+  id=$(basename "$1"/farm/plan_*.json .json)
+  echo "${id#plan_}"
+}
+
+# write_program NAME: ./NAME is like domefall, but each `render` that makes frames first does what
+# standard input says, in bash. There `on RANGE` asks whether its frames are RANGE; `once WORD` is true
+# once; `first RANGE PART` renders PART of its frames, RANGE; `wait_for FILE` waits until it is there,
+# or ends with 143 by TERM. So what happens at which frame does not depend on how fast a machine is.
+write_program() {
+  {
+    cat <<SCRIPT
+#!/bin/bash
+scratch=$scratch domefall=$DOMEFALL
+SCRIPT
+    cat <<'SCRIPT'
+on() { [[ " ${arguments[*]} " == *" --frames $1 "* ]]; }
+once() { mkdir "$scratch/$1.once" 2>/dev/null; }
+first() { "$domefall" "${arguments[@]/#$1/$2}" || exit; }
+wait_for() {
+  trap 'exit 143' TERM
+  until [[ -e $scratch/$1 ]]; do sleep 0.05; done
+  trap - TERM
+}
+arguments=("$@")
+if [[ $1 == render && " $* " != *" --dry-run "* ]]; then
+SCRIPT
+    cat
+    cat <<'SCRIPT'
+fi
+exec "$domefall" "$@"
+SCRIPT
+  } >"$1"
+  chmod +x "$1"
+}

@@ -1,13 +1,6 @@
 #!/usr/bin/env bash
 # domefall farm submit --engine local against a single run: the same bytes, whatever happens to workers.
-set -euo pipefail
-# shellcheck source-path=SCRIPTDIR source=farm_test.bash
-source "$(dirname "${BASH_SOURCE[0]}")/farm_test.bash"
-# shellcheck source-path=SCRIPTDIR source=farm_submit.bash
-source "$(dirname "${BASH_SOURCE[0]}")/farm_submit.bash"
-trap 'end_marked; rm -rf "$scratch"' EXIT
-cd "$scratch"
-write_show fall.yaml
+source "$(dirname "$0")/farm_test.bash"
 local_farm=("$DOMEFALL" farm submit --engine local)
 launch=("${local_farm[@]}" fall.yaml --workers 2 --threads 2)
 launch_one=("${local_farm[@]}" fall.yaml --workers 1)
@@ -282,15 +275,4 @@ SCRIPT
   same_frames single coming.d 6 || fail "the frames differ"
 }
 
-for claim in two_workers_make_the_bytes_of_a_single_run a_range_may_be_split_and_joined \
-  a_killed_worker_loses_nothing a_stopped_run_and_a_killed_one_are_taken_up \
-  a_full_disk_is_tried_again a_wrong_input_is_not_tried_again \
-  what_is_anothers_is_refused_before_a_worker_starts a_show_edited_during_the_run_is_noticed \
-  a_show_that_is_away_or_half_written_is_waited_for \
-  a_show_that_vanishes_under_a_worker_is_waited_for a_show_that_is_made_wrong_ends_the_run \
-  a_folder_that_is_away_is_not_made_anew a_stopped_worker_is_continued_and_then_killed \
-  a_stopped_worker_does_not_outlive_the_end_of_the_run \
-  a_worker_that_cannot_be_started_is_tried_again; do
-  $claim
-  pass "$claim"
-done
+try_all_claims

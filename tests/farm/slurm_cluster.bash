@@ -93,6 +93,8 @@ SelectTypeParameters=CR_CPU
 SlurmdParameters=config_overrides
 ReturnToService=2
 JobRequeue=1
+# As on most clusters, what no node can run is refused and does not wait for ever.
+EnforcePartLimits=ALL
 KillWait=10
 MinJobAge=300
 MaxArraySize=25
@@ -232,3 +234,9 @@ concluded() { # concluded FOLDER COUNT
     fail "$1 is not concluded"
   }
 }
+
+skip_without_slurm
+trap 'slurm_down; umount "$scratch/small" 2>/dev/null || true; rm -rf "$scratch"' EXIT
+slurm_up
+pass "Slurm is up"
+"$DOMEFALL" render fall.yaml --out single --threads 1 2>single.log

@@ -1,21 +1,7 @@
 #!/usr/bin/env bash
 # Jobs of domefall farm submit --engine slurm that are cancelled, and such as share a folder, on a real Slurm.
-set -euo pipefail
-# shellcheck source-path=SCRIPTDIR source=farm_test.bash
-source "$(dirname "${BASH_SOURCE[0]}")/farm_test.bash"
-# shellcheck source-path=SCRIPTDIR source=slurm_cluster.bash
-source "$(dirname "${BASH_SOURCE[0]}")/slurm_cluster.bash"
-# shellcheck source-path=SCRIPTDIR source=farm_submit.bash
-source "$(dirname "${BASH_SOURCE[0]}")/farm_submit.bash"
-trap 'rm -rf "$scratch"' EXIT
-skip_without_slurm
-cd "$scratch"
-write_show fall.yaml
-trap 'slurm_down; rm -rf "$scratch"' EXIT
-slurm_up
-pass "Slurm is up"
-"$DOMEFALL" render fall.yaml --out single --threads 1 2>single.log
-
+source "$(dirname "$0")/farm_test.bash"
+source "$here/slurm_cluster.bash"
 launch=("$DOMEFALL" farm submit --engine slurm fall.yaml --threads 1)
 
 # A task is cancelled, another one goes on and is then killed with its runner, a frame is damaged: the
@@ -87,10 +73,30 @@ two_arrays_into_a_folder_make_their_own_frames() {
   until_ok 60 test -s both/fall_review.mp4 || fail "no movie"
 }
 
+# A show and folders whose names sbatch could take for something else, submitted from an allocation of
+# the user's own and with variables that sbatch, squeue and scontrol read.
+names_and_variables_change_nothing() {
+  local odd='--wrap=touch pwned,%A' out='a,b %j %%' job
+  mkdir -- "./$odd"
+  cp fall.yaml "./$odd/-x $odd.yaml"
+  job=$(env SBATCH_ARRAY_INX=5-9 SBATCH_WAIT=1 SBATCH_EXPORT=NONE SBATCH_ERROR=lost SBATCH_DEBUG=1 \
+    SBATCH_SIGNAL=KILL@300 SLURM_JOB_ID=4242 SLURM_ARRAY_JOB_ID=4242 SLURM_ARRAY_TASK_ID=3 \
+    SLURM_RESTART_COUNT=9 SLURM_TIME_FORMAT=relative SQUEUE_STATES=PD SQUEUE_FORMAT=%j SCONTROL_ALL=1 \
+    "$DOMEFALL" farm submit --engine slurm "./$odd/-x $odd.yaml" --threads 1 --retries 1 --out "$out" \
+    --frames 0-3 --chunk 2 2>names.log) || fail "$(cat names.log)"
+  [[ $job =~ ^[0-9]+$ ]] || fail "no job: $job"
+  wait_for "$job" "$out"
+  has_tasks "$job" "$out" "0 COMPLETED 0" "1 COMPLETED 0"
+  concluded "$out" 4
+  says "$(log_of "$out" "$job" 0)" "2 frames made"
+  [[ -z $(find . -name pwned -o -name lost) ]] || fail "a name was run, or a variable obeyed"
+}
+
+# Each node of this Slurm has one processor.
+too_many_processors_are_refused_with_the_option_that_helps() {
+  expect 2 unfit.log "${launch[@]/%1/4}" --out unfit --frames 0-1
+  says unfit.log "a task asks for 4 processors of a node; --threads asks for another number"
+}
+
 begin_dead
-for claim in a_dead_task_and_a_cancelled_one_are_made_up_for \
-  what_is_cancelled_as_a_whole_is_not_rendered_again \
-  two_arrays_into_a_folder_make_their_own_frames; do
-  $claim
-  pass "$claim"
-done
+try_all_claims

@@ -1,13 +1,6 @@
 #!/usr/bin/env bash
 # What several submissions into one folder do to each other, and how long a plan is true.
-set -euo pipefail
-# shellcheck source-path=SCRIPTDIR source=farm_test.bash
-source "$(dirname "${BASH_SOURCE[0]}")/farm_test.bash"
-# shellcheck source-path=SCRIPTDIR source=farm_submit.bash
-source "$(dirname "${BASH_SOURCE[0]}")/farm_submit.bash"
-trap 'end_marked; rm -rf "$scratch"' EXIT
-cd "$scratch"
-write_show fall.yaml
+source "$(dirname "$0")/farm_test.bash"
 "$DOMEFALL" render fall.yaml --out single --frames 0-9 --threads 1 2>single.log
 submit=("$DOMEFALL" farm submit fall.yaml)
 local_run=("${submit[@]}" --engine local --workers 1 --threads 1 --out both)
@@ -57,6 +50,70 @@ what_an_engine_refuses_is_no_plan() {
   [[ $(find both/farm -name 'plan_*' | wc -l) == 3 ]] || fail "the refused plan is kept"
   status both
   says status.out "4 of 4 frames are done"
+}
+
+# In the place of sbatch, a script that refuses as Slurm does where no node has so many processors.
+a_refusal_for_its_processors_names_the_option() {
+  local threads
+  sed -i 's/echo "sbatch: error: .*"/echo "sbatch: error: CPU count per node can not be satisfied"/' bin/sbatch
+  for threads in "" "--threads 3"; do
+    # shellcheck disable=SC2086 # several words
+    PATH=$scratch/bin:$PATH expect 2 refused.log "${submit[@]}" --engine slurm --out unfit $threads
+    says refused.log "CPU count per node can not be satisfied"
+    threads=${threads#--threads }
+    says refused.log "a task asks for ${threads:-4} processors of a node; --threads asks for another number"
+  done
+}
+
+# A user's own allocation, in which the submission is made, has the variables of a task.
+an_allocation_of_the_users_own_is_no_task() {
+  mkdir -p own
+  printf '#!/bin/sh\necho "$@" >>%s/scontrol.log\n' "$scratch" >own/scontrol
+  cp own/scontrol own/scancel
+  chmod +x own/*
+  # shellcheck disable=SC2016 # it is the script's
+  printf '#!/bin/sh\n[ "$1" != render ] || exit 75\nexec "%s" "$@"\n' "$DOMEFALL" >failing
+  chmod +x failing
+  expect 75 own.log env PATH="$scratch/own:$PATH" SLURM_JOB_ID=4242 SLURM_ARRAY_JOB_ID=4242 \
+    SLURM_ARRAY_TASK_ID=1 SLURMD_NODENAME=n1 SLURM_RESTART_COUNT=9 SLURM_CPUS_PER_TASK=64 \
+    SLURM_CPUS_ON_NODE=64 "${submit[@]}" --engine local --program ./failing --retries 1 --rounds 0 \
+    --frames 0-3 --chunk 2 --out own.d
+  says own.log "given up after 2 tries"
+  says_not own.log "back to the queue"
+  [[ ! -e scontrol.log ]] || fail "scontrol $(cat scontrol.log)"
+  # Nor do its variables say how many threads there are, or which log tells of the end.
+  sed 's/exit 75/echo "$@" >>threads.log/' failing >counting
+  chmod +x counting
+  expect 0 own.log env SLURM_JOB_ID=4242 SLURM_CPUS_PER_TASK=64 "${submit[@]}" --engine local \
+    --program ./counting --workers 1 --threads 2 --frames 0-1 --out own.d
+  says threads.log "--threads 2"
+  says_not threads.log "--threads 64"
+  expect 2 task.log env -u SLURM_JOB_ID "$DOMEFALL" farm work own.d --plan x --task 0 --slurm
+  says task.log "SLURM_JOB_ID names none"
+}
+
+# What sbatch is given, kept by a script in its place.
+variables_that_would_change_a_submission_are_kept_from_slurm() {
+  local name
+  mkdir -p kept
+  printf '#!/bin/sh\nenv >>%s/sbatch.env\necho 7\n' "$scratch" >kept/sbatch
+  printf '#!/bin/sh\necho "MaxArraySize = 1001"\n' >kept/scontrol
+  chmod +x kept/*
+  expect 0 kept.log env PATH="$scratch/kept:$PATH" SBATCH_ARRAY_INX=0-9 SBATCH_WAIT=1 SBATCH_EXPORT=NONE \
+    SBATCH_ERROR=lost SBATCH_SIGNAL=KILL@9 SLURM_RESTART_COUNT=9 SLURM_JOB_ID=4242 SLURM_ARRAY_JOB_ID=42 \
+    SQUEUE_STATES=PD SBATCH_PARTITION=render SLURM_CONF=/etc/ours SITE=ours \
+    "${submit[@]}" --engine slurm --out kept.d --frames 0-3
+  for name in SBATCH_ARRAY_INX SBATCH_WAIT SBATCH_EXPORT SBATCH_ERROR SBATCH_SIGNAL SLURM_RESTART_COUNT \
+    SLURM_JOB_ID SLURM_ARRAY_JOB_ID SQUEUE_STATES; do
+    says_not sbatch.env "$name="
+  done
+  for name in SBATCH_PARTITION=render SLURM_CONF=/etc/ours SITE=ours; do
+    [[ $(grep -cxF "$name" sbatch.env) == 2 ]] || fail "not $name: $(cat sbatch.env)"
+  done
+  # What is no job's number does not become an argument of Slurm's programs.
+  sed -i 's/"job": "7"/"job": "--user=root"/' kept.d/farm/plan_*.json
+  expect 2 job.log "$DOMEFALL" farm status kept.d
+  says job.log "the job of a round must be a number, got '--user=root'"
 }
 
 a_plan_that_found_nothing_to_do_is_passed_over() {
@@ -123,7 +180,7 @@ with wave.open('mix.wav', 'wb') as sound:
 --leader|--leader: is of --deliver
 --depth 8|--depth 8: is of --deliver
 --deliver d --subtitles none.srt|none.srt: No such file or directory
---deliver d --audio words.srt|words.srt: no sound that can be delivered
+--deliver d --audio words.srt|words.srt: no sound that can be used
 --overlay nosuch|--overlay nosuch: overlays are grid
 --program nosuch|--program nosuch: PATH has no such program
 --program ./none|none: cannot be started: No such file or directory
@@ -198,15 +255,4 @@ what_ended_well_has_not_failed_when_the_show_is_edited() {
   says status.out '"stale": "0-3"'
 }
 
-for claim in two_runs_into_a_folder_make_their_own_frames \
-  status_tells_of_the_latest_plan_or_of_the_one_that_is_named what_an_engine_refuses_is_no_plan \
-  a_plan_that_found_nothing_to_do_is_passed_over a_plan_of_all_frames_follows_the_show \
-  what_cannot_follow_the_frames_is_refused_at_once \
-  paths_that_no_plan_can_hold_are_refused_at_once \
-  sound_overlays_and_parts_of_a_delivery_are_checked_and_kept \
-  what_is_only_printed_needs_no_controller a_list_takes_nothing_that_follows_the_frames \
-  what_fails_after_the_frames_is_told_by_status \
-  what_ended_well_has_not_failed_when_the_show_is_edited; do
-  $claim
-  pass "$claim"
-done
+try_all_claims

@@ -2,10 +2,8 @@
 # Two processes make the same frames in one folder at once, and one is frozen in the middle of a file until the
 # other is done: nobody removes the frozen one's file, and every frame has the bytes of a single run.  So it is
 # with locks, without them, and where the frozen one is of another machine whose locks are not seen.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/../cli/common.bash"
 refuse=$DOMEFALL_SOURCE/tests/cli/refuse_calls.py
-cd "$folder"
 
 cat >fall.yaml <<'END'
 title: A fall for two

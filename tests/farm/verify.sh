@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # `domefall farm verify` and `status` tell each kind of damage with its frame's number, --repair mends it, and
 # what a changed show costs is told before anything is made.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/../cli/common.bash"
-cd "$folder"
 
 # The first frame of the fade is black, as the show says.
 cat >fall.yaml <<'END'
@@ -168,6 +166,56 @@ if [ "$(id -u)" -ne 0 ]; then
   exits 0 domefall farm verify out --repair
   same_frames whole/linear out/linear
 fi
+# What is no file is told and left, and all else is made again. A link stays, and leads to the new frame.
+mkdir elsewhere
+for k in 1 2 3; do
+  mv "$(linear $k)" "elsewhere/$k.exr"
+  ln -s "../../elsewhere/$k.exr" "$(linear $k)"
+done
+exits 0 domefall farm verify out
+truncate -s -7 elsewhere/1.exr
+rm elsewhere/3.exr
+cp black.png elsewhere/black.png
+rm "$(graded 11)" "$(linear 4)" "$(graded 5)" "$(linear 6)" "$(linear 7)"
+ln -s "$PWD/elsewhere/black.png" "$(graded 11)"
+mkdir "$(linear 4)"
+mkfifo "$(graded 5)"
+ln -s fall_00006.exr "$(linear 6)"
+exits 75 domefall farm verify out --repair --json
+has unreadable 3-6
+has to_make ''
+grep -q '"good": 16,' stdout || fail "$(cat stdout)"
+exits 75 domefall farm verify out
+says '4 frames cannot be read$'
+for k in 3 4 5 6; do grep -q "^    $k: .*fall_0000$k" stdout || fail "frame $k is not told: $(cat stdout)"; done
+if [ ! -d "$(linear 4)" ] || [ ! -p "$(graded 5)" ]; then fail "what was no file was replaced"; fi
+for link in "$(linear 1)" "$(linear 2)" "$(linear 3)" "$(graded 11)"; do
+  [ -L "$link" ] || fail "the link $link was replaced"
+done
+cmp elsewhere/1.exr whole/linear/fall_00001.exr
+cmp elsewhere/black.png whole/graded/fall_00011.png
+rmdir "$(linear 4)"
+rm "$(graded 5)" "$(linear 6)" "$(linear 3)"
+exits 0 domefall farm verify out --repair
+# So it is for render and grade, which follow a link to what is to be made anew.
+rm "$(linear 1)" "$(linear 2)" "$(graded 11)"
+cp whole/linear/fall_0000[12].exr out/linear
+cp whole/graded/fall_00011.png out/graded
+for verb in render grade; do
+  rm elsewhere/*
+  for k in 1 2; do
+    echo old >elsewhere/$k.png
+    ln -sf "../../elsewhere/$k.png" "$(graded $k)"
+  done
+  exits 0 domefall $verb fall.yaml --out out --replace
+  for k in 1 2; do
+    [ -L "$(graded $k)" ] || fail "$verb replaced a link"
+    cmp elsewhere/$k.png "whole/graded/fall_0000$k.png"
+  done
+done
+[ -z "$(find elsewhere out -name '.*.tmp')" ] || fail "left: $(find elsewhere out -name '.*.tmp')"
+rm "$(graded 1)" "$(graded 2)"
+cp whole/graded/fall_0000[12].png out/graded
 # Another show's folder is not made this one's.
 exits 2 domefall farm verify others/out --show fall.yaml --repair
 says 'belongs to'

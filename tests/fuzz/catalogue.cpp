@@ -1,11 +1,10 @@
 // Catalogues of stars for import: the first byte names the format, or what is laid over them.
 #include <cmath>
 
-#include "pipeline/image/errors.h"
-#include "pipeline/sky/catalogue/amend/star_corrections.h"
-#include "pipeline/sky/catalogue/amend/star_names.h"
-#include "pipeline/sky/catalogue/import/catalogue_formats.h"
-#include "pipeline/sky/catalogue/read_star_catalogue.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/sources/stars/amend_catalogue.h"
+#include "pipeline/sources/stars/catalogue_formats.h"
+#include "pipeline/sources/stars/star_catalogue.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 

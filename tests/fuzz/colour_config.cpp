@@ -1,6 +1,6 @@
 // Configurations of OpenColorIO.  They are tried in a process of their own, which may crash.
+#include "pipeline/base/errors.h"
 #include "pipeline/grade/grader.h"
-#include "pipeline/image/errors.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 

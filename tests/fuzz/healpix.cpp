@@ -1,6 +1,6 @@
 // HEALPix maps in FITS files.
-#include "pipeline/image/errors.h"
-#include "pipeline/image/read_healpix.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/image/read_image.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 

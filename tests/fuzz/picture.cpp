@@ -1,7 +1,6 @@
 // Pictures, by their header and, where they are small, by their pixels.
-#include "pipeline/image/errors.h"
-#include "pipeline/image/input_image.h"
-#include "pipeline/image/light_image.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/image/read_image.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 
@@ -12,7 +11,9 @@ void picture(const std::uint8_t* data, std::size_t size) {
   const auto file = input_file(text_of(data, size));
   try {
     const ImageLayout layout = InputImage(file).layout();
-    if (layout.width > kMostPixels / layout.height) return;
+    if (layout.width > kMostPixels / layout.height ||
+        layout.place.width > kMostPixels / layout.place.height)
+      return;
     read_light_image(file, PixelEncoding::kOfFile);
   } catch (const InputError&) {
   }

@@ -1,7 +1,7 @@
 // Show files, and the state of their first and last frames.
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/show/file/read_show.h"
 #include "pipeline/show/frame_state.h"
-#include "pipeline/show/read_show.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 

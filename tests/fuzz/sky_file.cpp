@@ -1,12 +1,12 @@
 // Sky maps in .sky files, whose header's checksum is made right, so that what it guards is reached.
-#include "pipeline/sky/maps/sky_file.h"
+#include "pipeline/sources/sky/sky_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "pipeline/image/digest.h"
-#include "pipeline/image/errors.h"
+#include "pipeline/base/digest.h"
+#include "pipeline/base/errors.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 

@@ -1,14 +1,15 @@
 // The fuzzer reads star catalogues in .stars files.  Their checksums are made right, so that it
 // reaches what they guard.
+#include "pipeline/sources/stars/star_file.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "pipeline/image/digest.h"
-#include "pipeline/image/errors.h"
-#include "pipeline/sky/catalogue/read_star_catalogue.h"
-#include "pipeline/sky/catalogue/star_file_layout.h"
+#include "pipeline/base/digest.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/sources/stars/star_catalogue.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 

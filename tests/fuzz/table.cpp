@@ -1,6 +1,6 @@
 // Tables as text, with and without a header.
-#include "pipeline/image/csv_file.h"
-#include "pipeline/image/errors.h"
+#include "pipeline/base/csv_file.h"
+#include "pipeline/base/errors.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 

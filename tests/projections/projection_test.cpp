@@ -138,7 +138,7 @@ TEST(Projections, TheMetricIsThatOfSmallSteps) {
       // The largest angle is the root of the metric's larger eigenvalue.
       const double mean = (m.xx + m.yy) / 2, half = (m.xx - m.yy) / 2;
       EXPECT_NEAR(pixel, std::sqrt(mean + std::hypot(half, m.xy)), 1e-7 * pixel);
-      EXPECT_LE(pixel, central_pixel_angle(p) * (1 + 1e-12)) << projection_name(p);
+      EXPECT_LE(pixel, largest_pixel_angle(p) * (1 + 1e-12)) << projection_name(p);
     }
   }
 }
@@ -252,7 +252,7 @@ TEST(Projections, OnlySomeHaveAFieldOfViewToChange) {
 }
 
 // Rows that only touch the circle, odd and even sizes, and a flat image.
-TEST(Projections, ARowsColumnsAreThoseInsideAndItsDirectionsTheirs) {
+TEST(Projections, ARowsColumnsAreThoseInside) {
   for (const Projection& p :
        {Projection(Domemaster{1}), Projection(Domemaster{2}), Projection(Domemaster{63}),
         Projection(Domemaster{512}), Projection(Stereographic{64, 40, 2.0}),
@@ -261,19 +261,61 @@ TEST(Projections, ARowsColumnsAreThoseInsideAndItsDirectionsTheirs) {
         Projection(Cubemap{17})}) {
     for (int row = 0; row < rows(p); ++row) {
       const ColumnRange range = inside_columns(p, row);
-      std::vector<CameraDirection> n(
-          static_cast<std::size_t>(std::max(0, range.last - range.first + 1)));
-      inside_directions(p, row, range, n.data());
       for (int i = 0; i < columns(p); ++i) {
         const PixelPosition at{i + 1.0, row + 1.0};
         const bool in_range = i >= range.first && i <= range.last;
         ASSERT_EQ(in_range, is_inside(p, at)) << "row " << row << " column " << i;
-        if (!in_range) continue;
-        const Imath::V3d& v = n[static_cast<std::size_t>(i - range.first)].v;
-        EXPECT_LT((v - direction_at(p, at).v).length(), 1e-15);
       }
     }
   }
+}
+
+void expect_size(const Projection& p, int width, int height) {
+  EXPECT_EQ(columns(p), width) << projection_name(p);
+  EXPECT_EQ(rows(p), height) << projection_name(p);
+}
+
+TEST(ImageSize, AWidthKeepsTheShape) {
+  expect_size(with_width(Domemaster{4096}, 48), 48, 48);
+  expect_size(with_width(Stereographic{1920, 1080, 1}, 480), 480, 270);
+  expect_size(with_width(Rectilinear{1920, 1080, 1}, 48), 48, 27);
+  expect_size(with_width(Fisheye{4096, 3072, 4, 1}, 48), 48, 36);
+  expect_size(with_width(Equirectangular{8192}, 49), 48, 24);
+  expect_size(with_width(Cubemap{1024}, 50), 48, 32);
+  expect_size(with_width(Stereographic{10000, 10, 1}, 16), 16, 1);
+}
+
+TEST(ImageSize, SidesAreFreeWhereNoShapeIsGiven) {
+  expect_size(with_sides(Rectilinear{10, 10, 1}, 640, 480), 640, 480);
+  expect_size(with_sides(Fisheye{10, 10, 1, 0}, 640, 480), 640, 480);
+  expect_size(with_sides(Fisheye{10, 10, 1, 0}, 480, 640), 480, 480);
+  EXPECT_EQ(field_of_view(with_sides(Stereographic{10, 10, 1.5}, 20, 10)), 1.5);
+  expect_size(with_sides(Domemaster{8}, 640, 480), 480, 480);
+  expect_size(with_sides(Equirectangular{8}, 641, 480), 640, 320);
+  expect_size(with_sides(Cubemap{8}, 640, 480), 639, 426);
+  EXPECT_TRUE(has_free_shape(Fisheye{10, 10, 1, 0}));
+  for (const Projection& p :
+       {Projection(Domemaster{8}), Projection(Equirectangular{8}), Projection(Cubemap{8})})
+    EXPECT_FALSE(has_free_shape(p)) << projection_name(p);
+}
+
+// Axes are right-handed, so that no face is mirrored.
+TEST(CubemapFaces, AreRectilinearImagesOfTheSameDirections) {
+  const Projection p = Cubemap{64};
+  ASSERT_EQ(cubemap_faces(p).size(), 6u);
+  for (const CubemapFace& face : cubemap_faces(p)) {
+    EXPECT_EQ((face.axes[0].cross(face.axes[1]) - face.axes[2]).length(), 0);
+    for (const double i : {1.0, 20.0, 64.0}) {
+      const Imath::V3d v = direction_at(face.projection, {i, 9}).v;
+      const Imath::V3d n = face.axes[0] * v.x + face.axes[1] * v.y + face.axes[2] * v.z;
+      EXPECT_LT((n - direction_at(p, {face.column + i, face.row + 9.0}).v).length(), 1e-15);
+    }
+  }
+}
+
+TEST(CubemapFaces, OtherProjectionsHaveNone) {
+  EXPECT_TRUE(cubemap_faces(Equirectangular{64}).empty());
+  EXPECT_TRUE(cubemap_faces(Domemaster{64}).empty());
 }
 
 }  // namespace

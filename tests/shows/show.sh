@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
 # show.sh SHOW: the show is checked, and rendered small: first frame, last frame and some between.
-# shellcheck source=tests/cli/common.bash
 source "$(dirname "$0")/../cli/common.bash"
 cd "$DOMEFALL_SOURCE"
 show=$1

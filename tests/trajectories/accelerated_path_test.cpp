@@ -73,7 +73,7 @@ TEST(AcceleratedPath, APathThatTouchesTheHorizonIsRefused) {
 
 TEST(AcceleratedPath, APathOverTheHorizonIsSmoothThere) {
   const AcceleratedPath path({{0, 6, 0}, {4, 3, 0.3}, {5.2, 1, 0.35}});
-  const double horizon = path.time_at(2, Leg::kInward).value();
+  const double horizon = double(path.time_at(2, Leg::kInward).value());
   EXPECT_EQ(path.at(horizon - 1e-3).region, Region::kI);
   EXPECT_EQ(path.at(horizon + 1e-3).region, Region::kII);
   for (const double h : {1e-3, 1e-5, 1e-7, 1e-9}) {
@@ -128,9 +128,9 @@ TEST(AcceleratedPath, DoesNotOvershootItsKeys) {
 
 TEST(AcceleratedPath, TimeAtFindsEveryPassage) {
   const AcceleratedPath path({{0, 10, 0}, {10, 4, 0}, {20, 8, 0}, {30, 5, 0}});
-  const double down = path.time_at(6, Leg::kInward).value();
-  const double up = path.time_at(6, Leg::kOutward).value();
-  const double again = path.time_at(6, Leg::kInward, down + 1).value();
+  const double down = double(path.time_at(6, Leg::kInward).value());
+  const double up = double(path.time_at(6, Leg::kOutward).value());
+  const double again = double(path.time_at(6, Leg::kInward, down + 1).value());
   EXPECT_LT(down, up);
   EXPECT_LT(up, again);
   for (const double tau : {down, up, again}) EXPECT_NEAR(path.at(tau).r, 6, 1e-14);

@@ -10,7 +10,7 @@
 
 #include "tests/source_tree.h"
 #include "tests/trajectories/named_orbit.h"
-#include "trajectories/passages.h"
+#include "trajectories/trajectory.h"
 
 namespace domefall {
 namespace {

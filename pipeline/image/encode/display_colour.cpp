@@ -14,18 +14,15 @@ bool is_srgb(const DisplayColour& colour) {
 }
 
 // PNG's numbers are whole, in units of 1e-5.
-std::string png_number(double value) {
-  const auto number = static_cast<std::uint32_t>(std::lround(value * 1e5));
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
-  return bytes;
+std::string png_part(double value) {
+  return png_number(static_cast<std::uint32_t>(std::lround(value * 1e5)));
 }
 
 // DisplayColour::gamma is the exponent that decodes, and PNG states its inverse.  For sRGB the
 // number is the specification's (second edition, 11.3.3.5).
 std::string png_gamma(const DisplayColour& colour) {
   constexpr double kOfSrgb = 0.45455;
-  return png_number(colour.curve == DisplayColour::Curve::kSrgb ? kOfSrgb : 1 / colour.gamma);
+  return png_part(colour.curve == DisplayColour::Curve::kSrgb ? kOfSrgb : 1 / colour.gamma);
 }
 
 void require_lcms(bool done) {
@@ -43,7 +40,7 @@ std::vector<PngChunk> png_colour_chunks(const DisplayColour& colour) {
   if (is_srgb(colour)) chunks.push_back({"sRGB", std::string(1, '\0')});  // intent: perceptual
   chunks.push_back({"gAMA", png_gamma(colour)});
   std::string places;
-  for (const std::size_t k : {6U, 7U, 0U, 1U, 2U, 3U, 4U, 5U}) places += png_number(colour.xy[k]);
+  for (const std::size_t k : {6U, 7U, 0U, 1U, 2U, 3U, 4U, 5U}) places += png_part(colour.xy[k]);
   chunks.push_back({"cHRM", places});
   return chunks;
 }

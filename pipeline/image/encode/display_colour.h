@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/image/encode/png_writer.h"
+#include "pipeline/image/encode/picture_writers.h"
 
 namespace domefall {
 
@@ -18,12 +18,16 @@ struct DisplayColour {
 };
 
 // These are the primaries and whites of ITU-R BT.709, which sRGB shares, of BT.2020, of SMPTE RP
-// 431-2 (DCI-P3), and of the last with the white D65.
+// 431-2 (DCI-P3), of the last with the white D65, of Adobe RGB (1998), and of the spaces AP1 (that of
+// ACEScg) and AP0 of ACES (ST 2065-1).
 inline constexpr std::array<double, 8> kRec709Places{0.64, 0.33, 0.3,    0.6,
                                                      0.15, 0.06, 0.3127, 0.329},
     kRec2020Places{0.708, 0.292, 0.17, 0.797, 0.131, 0.046, 0.3127, 0.329},
     kDciP3Places{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.314, 0.351},
-    kP3D65Places{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329};
+    kP3D65Places{0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329},
+    kAdobeRgbPlaces{0.64, 0.33, 0.21, 0.71, 0.15, 0.06, 0.3127, 0.329},
+    kAp1Places{0.713, 0.293, 0.165, 0.83, 0.128, 0.044, 0.32168, 0.33767},
+    kAp0Places{0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
 
 // Returns gAMA and cHRM, and also sRGB if the colour is that.  There is no cICP, which could say no
 // more about these colours.  Programs from before PNG's third edition (pngcheck 3) would take it

@@ -3,13 +3,15 @@
 #include <OpenEXR/openexr.h>
 
 #include <algorithm>
-#include <array>
+#include <bit>
+#include <cstdint>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
+#include <type_traits>
 
-#include "pipeline/image/encode/deflate.h"
-#include "pipeline/image/encode/exr_zip.h"
-#include "pipeline/image/encode/side_by_side.h"
+#include "pipeline/base/deflate.h"
+#include "pipeline/base/side_by_side.h"
 
 namespace domefall {
 namespace {
@@ -44,7 +46,6 @@ std::int64_t write_bytes(exr_const_context_t, void* sink, const void* bytes, std
   return static_cast<std::int64_t>(count);
 }
 
-// Adds attributes to a file's header, by their kind.
 struct AttributeAdder {
   exr_context_t file;
   const char* name;
@@ -70,52 +71,118 @@ struct AttributeAdder {
   }
 };
 
-// Says whether the channels are those for which our own packer is made.
-bool is_rgb(const ExrPicture& picture) {
-  return std::ranges::equal(picture.channels, std::array{"R", "G", "B"});
+// Says whether a channel is a colour, which is seen by the ratios of its numbers.
+bool is_colour(std::string_view channel) {
+  return channel == "R" || channel == "G" || channel == "B" || channel.ends_with(".R") ||
+         channel.ends_with(".G") || channel.ends_with(".B");
 }
 
-// An ExrInTheMaking is a file whose header is written and whose pixels are to follow.
-class ExrInTheMaking {
- public:
-  ExrInTheMaking(ByteSink& sink, const ExrPicture& picture) {
-    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    how.user_data = &sink;
-    how.write_fn = write_bytes;
-    how.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
-    require(exr_start_write(&file_, "frame", EXR_WRITE_FILE_DIRECTLY, &how));
-    try {
-      write_header(picture);
-    } catch (...) {
-      exr_finish(&file_);
-      throw;
-    }
-  }
-  ~ExrInTheMaking() { exr_finish(&file_); }
-  ExrInTheMaking(const ExrInTheMaking&) = delete;
-  ExrInTheMaking(ExrInTheMaking&&) = delete;
-  ExrInTheMaking& operator=(const ExrInTheMaking&) = delete;
-  ExrInTheMaking& operator=(ExrInTheMaking&&) = delete;
+exr_pixel_type_t type_of(const ExrChannel& channel) {
+  return std::visit([](const auto* numbers) { return type_of(numbers); }, channel.numbers);
+}
 
-  exr_context_t file() const { return file_; }
+struct FinishExr {
+  void operator()(exr_context_t file) const { exr_finish(&file); }
+};
+using ExrInTheMaking = std::unique_ptr<std::remove_pointer_t<exr_context_t>, FinishExr>;
+
+// Writes the header of a file, whose pixels are to follow.
+ExrInTheMaking begin_exr(ByteSink& sink, const ExrPicture& picture) {
+  exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  how.user_data = &sink;
+  how.write_fn = write_bytes;
+  how.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
+  exr_context_t file = nullptr;
+  require(exr_start_write(&file, "frame", EXR_WRITE_FILE_DIRECTLY, &how));
+  ExrInTheMaking made(file);
+  int part = 0;
+  require(exr_add_part(file, nullptr, EXR_STORAGE_SCANLINE, &part));
+  require(exr_initialize_required_attr_simple(file, part, picture.width, picture.height,
+                                              code_of(picture.compression)));
+  for (const ExrChannel& channel : picture.channels)
+    require(exr_add_channel(
+        file, part, channel.name.c_str(), type_of(channel),
+        is_colour(channel.name) ? EXR_PERCEPTUALLY_LOGARITHMIC : EXR_PERCEPTUALLY_LINEAR, 1, 1));
+  for (const auto& [name, value] : picture.attributes)
+    std::visit(AttributeAdder{file, name.c_str()}, value);
+  require(exr_write_header(file));
+  return made;
+}
+
+// Takes the words of 16 bits of a channel's row, the lower of a number first.
+std::uint16_t* append_words(const Imath::half* number, std::ptrdiff_t step, int count,
+                            std::uint16_t* out) {
+  for (int x = 0; x < count; ++x) out[x] = number[x * step].bits();
+  return out + count;
+}
+std::uint16_t* append_words(const float* number, std::ptrdiff_t step, int count,
+                            std::uint16_t* out) {
+  for (int x = 0; x < count; ++x) {
+    const auto bits = std::bit_cast<std::uint32_t>(number[x * step]);
+    out[2 * x] = static_cast<std::uint16_t>(bits);
+    out[2 * x + 1] = static_cast<std::uint16_t>(bits >> 16);
+  }
+  return out + 2 * static_cast<std::ptrdiff_t>(count);
+}
+
+// Returns the words of some rows as a file has them, which is row by row and in each the channels one
+// after the other, in the order of their names.
+void take_words(const ExrPicture& picture, int first_row, int height,
+                std::vector<std::uint16_t>& words) {
+  std::size_t in_pixel = 0;
+  for (const ExrChannel& channel : picture.channels)
+    in_pixel += std::holds_alternative<const float*>(channel.numbers) ? 2 : 1;
+  words.resize(in_pixel * static_cast<std::size_t>(picture.width) *
+               static_cast<std::size_t>(height));
+  std::uint16_t* out = words.data();
+  for (int row = first_row; row < first_row + height; ++row)
+    for (const ExrChannel& channel : picture.channels)
+      std::visit(
+          [&](const auto* numbers) {
+            out = append_words(numbers + channel.step * picture.width * std::ptrdiff_t{row},
+                               channel.step, picture.width, out);
+          },
+          channel.numbers);
+}
+
+// All low bytes come first and then all high ones, each less the one before it, plus 128.  Before the
+// first low byte there is none, and before the first high byte there is the last low byte.
+void take_differences(const std::vector<std::uint16_t>& words, unsigned char* out) {
+  const auto byte = [](int value) { return static_cast<unsigned char>(value); };
+  const std::size_t count = words.size();
+  // Nothing overlaps, which a compiler must know to take many at a time.
+  const std::uint16_t* __restrict const word = words.data();
+  unsigned char* __restrict const low = out;
+  unsigned char* __restrict const high = out + count;
+  constexpr int kMiddle = 128;
+  for (std::size_t k = 1; k < count; ++k) {
+    low[k] = byte(word[k] - word[k - 1] + kMiddle);
+    high[k] = byte((word[k] >> 8) - (word[k - 1] >> 8) + kMiddle);
+  }
+  low[0] = byte(words[0]);
+  high[0] = byte((words[0] >> 8) - words[count - 1] + kMiddle);
+}
+
+// This is the ZIP compression of OpenEXR, packed by ISA-L.
+class ExrZip {
+ public:
+  // Packs some rows.  They are a zlib stream of the bytes' differences ("OpenEXR File Layout"), or
+  // the bytes as they are where that would be no smaller.  The bytes are there until the next rows.
+  std::string_view pack(const ExrPicture& picture, int first_row, int height) {
+    take_words(picture, first_row, height, words_);
+    const std::string_view as_they_are(reinterpret_cast<const char*>(words_.data()),
+                                       2 * words_.size());
+    bytes_.reserve(as_they_are.size());
+    bytes_.set_size(as_they_are.size());
+    take_differences(words_, bytes_.data());
+    deflater_.pack_stream(bytes_.view(), packed_);
+    return packed_.size() < as_they_are.size() ? packed_.view() : as_they_are;
+  }
 
  private:
-  void write_header(const ExrPicture& picture) {
-    int part = 0;
-    require(exr_add_part(file_, nullptr, EXR_STORAGE_SCANLINE, &part));
-    require(exr_initialize_required_attr_simple(file_, part, picture.width, picture.height,
-                                                code_of(picture.compression)));
-    const exr_pixel_type_t type =
-        std::visit([](const auto* pixels) { return type_of(pixels); }, picture.pixels);
-    const auto meaning = is_rgb(picture) ? EXR_PERCEPTUALLY_LOGARITHMIC : EXR_PERCEPTUALLY_LINEAR;
-    for (const std::string& channel : picture.channels)
-      require(exr_add_channel(file_, part, channel.c_str(), type, meaning, 1, 1));
-    for (const auto& [name, value] : picture.attributes)
-      std::visit(AttributeAdder{file_, name.c_str()}, value);
-    require(exr_write_header(file_));
-  }
-
-  exr_context_t file_ = nullptr;
+  Deflater deflater_;
+  std::vector<std::uint16_t> words_;
+  ByteBlock bytes_, packed_;
 };
 
 // Makes blocks of rows ready to be written, one after the other in the same memory.
@@ -126,47 +193,39 @@ class BlockEncoder {
     if (begun_) exr_encoding_destroy(pipeline_.context, &pipeline_);
   }
   BlockEncoder(const BlockEncoder&) = delete;
-  BlockEncoder(BlockEncoder&&) = delete;
   BlockEncoder& operator=(const BlockEncoder&) = delete;
-  BlockEncoder& operator=(BlockEncoder&&) = delete;
 
   void encode(exr_context_t file, const ExrPicture& picture, int first_row) {
     exr_chunk_info_t block;
     require(exr_write_scanline_chunk_info(file, 0, first_row, &block));
-    const bool zip = (picture.compression == ExrCompression::kZip ||
-                      picture.compression == ExrCompression::kZips) &&
-                     is_rgb(picture);
-    const std::size_t channels = picture.channels.size();
-    const auto encode_rows = [&](const auto* first) {
-      const auto* rows = first + static_cast<std::size_t>(first_row) *
-                                     static_cast<std::size_t>(picture.width) * channels;
-      if (zip)
-        bytes_ = zip_.pack(rows, picture.width, block.height);
-      else
-        run(file, block, rows, picture.channels);
-    };
-    std::visit(encode_rows, picture.pixels);
+    if (picture.compression == ExrCompression::kZip || picture.compression == ExrCompression::kZips)
+      bytes_ = zip_.pack(picture, first_row, block.height);
+    else
+      run(file, block, picture, first_row);
   }
-  // Returns the block as it stands in the file.
   std::string_view bytes() const { return bytes_; }
 
  private:
   // This is done by OpenEXR's own steps, but for the last, which writes.
-  template <class T>
-  void run(exr_context_t file, const exr_chunk_info_t& block, const T* rows,
-           const std::vector<std::string>& names) {
+  void run(exr_context_t file, const exr_chunk_info_t& block, const ExrPicture& picture,
+           int first_row) {
     require(begun_ ? exr_encoding_update(file, 0, &block, &pipeline_)
                    : exr_encoding_initialize(file, 0, &block, &pipeline_));
     begun_ = true;
-    for (int c = 0; c < pipeline_.channel_count; ++c) {
-      exr_coding_channel_info_t& channel = pipeline_.channels[c];
-      const auto place = std::find(names.begin(), names.end(), channel.channel_name);
-      channel.encode_from_ptr =
-          reinterpret_cast<const std::uint8_t*>(rows + (place - names.begin()));
-      channel.user_bytes_per_element = sizeof(T);
-      channel.user_data_type = static_cast<std::uint16_t>(type_of(rows));
-      channel.user_pixel_stride = static_cast<std::int32_t>(names.size() * sizeof(T));
-      channel.user_line_stride = channel.user_pixel_stride * block.width;
+    for (std::size_t c = 0; c < picture.channels.size(); ++c) {
+      exr_coding_channel_info_t& to = pipeline_.channels[c];
+      const ExrChannel& from = picture.channels[c];
+      std::visit(
+          [&](const auto* numbers) {
+            const std::ptrdiff_t row = from.step * picture.width;
+            to.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(numbers + row * first_row);
+            to.user_bytes_per_element = sizeof *numbers;
+            to.user_data_type = static_cast<std::uint16_t>(type_of(numbers));
+            to.user_pixel_stride =
+                static_cast<std::int32_t>(from.step * static_cast<int>(sizeof *numbers));
+            to.user_line_stride = to.user_pixel_stride * picture.width;
+          },
+          from.numbers);
     }
     require(exr_encoding_choose_default_routines(file, 0, &pipeline_));
     pipeline_.yield_until_ready_fn = nullptr;
@@ -184,16 +243,19 @@ class BlockEncoder {
 }  // namespace
 
 void write_exr(ByteSink& sink, const ExrPicture& picture) {
-  const ExrInTheMaking made(sink, picture);
+  ExrPicture sorted = picture;
+  // So a file has them.
+  std::ranges::sort(sorted.channels, {}, &ExrChannel::name);
+  const ExrInTheMaking made = begin_exr(sink, sorted);
   int rows = 0, blocks = 0;
-  require(exr_get_scanlines_per_chunk(made.file(), 0, &rows));
-  require(exr_get_chunk_count(made.file(), 0, &blocks));
+  require(exr_get_scanlines_per_chunk(made.get(), 0, &rows));
+  require(exr_get_chunk_count(made.get(), 0, &blocks));
   make_in_order<BlockEncoder>(
       blocks,
-      [&](int block, BlockEncoder& encoder) { encoder.encode(made.file(), picture, rows * block); },
+      [&](int block, BlockEncoder& encoder) { encoder.encode(made.get(), sorted, rows * block); },
       [&](int block, const BlockEncoder& encoder) {
         const std::string_view bytes = encoder.bytes();
-        require(exr_write_scanline_chunk(made.file(), 0, rows * block, bytes.data(), bytes.size()));
+        require(exr_write_scanline_chunk(made.get(), 0, rows * block, bytes.data(), bytes.size()));
       });
 }
 

@@ -1,19 +1,31 @@
-// This file writes OpenEXR files of scan lines.  The channels are R, G and B or others, in floats
-// of 16 or 32 bits.
+// This file writes OpenEXR files of scan lines.  Each channel has floats of 16 or 32 bits.
 #pragma once
 
 #include <Imath/half.h>
 
+#include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "pipeline/image/encode/byte_sink.h"
-#include "pipeline/image/encode/exr_compression.h"
+#include "pipeline/base/new_file.h"
 
 namespace domefall {
+
+// These pack blocks of 16 rows, blocks of 1 row, 32 rows by wavelets, or leave the pixels as they
+// are.
+enum class ExrCompression { kZip, kZips, kPiz, kNone };
+
+// Floats have 16 or 32 bits.
+enum class ExrPixels { kHalf, kFloat };
+
+struct ExrFormat {
+  ExrPixels pixels = ExrPixels::kHalf;
+  ExrCompression compression = ExrCompression::kZip;
+};
 
 // ExrChromaticities are CIE x, y of red, green, blue and white.
 struct ExrChromaticities {
@@ -30,13 +42,28 @@ struct ExrTimeCode {
 using ExrValue =
     std::variant<std::string, int, double, ExrChromaticities, ExrRational, ExrTimeCode>;
 
+// A channel has one number for each pixel, row after row from the top.
+struct ExrChannel {
+  std::string name;
+  std::variant<const Imath::half*, const float*> numbers{};
+  std::ptrdiff_t step = 1;  // from one number to the next
+};
+
+// Returns the channels of a picture whose pixels hold the numbers of all channels side by side.
+template <class T>
+std::vector<ExrChannel> interleaved(const std::vector<std::string>& names, const T* pixels) {
+  std::vector<ExrChannel> channels;
+  channels.reserve(names.size());
+  for (const std::string& name : names)
+    channels.push_back({name, pixels++, static_cast<std::ptrdiff_t>(names.size())});
+  return channels;
+}
+
 struct ExrPicture {
   int width = 0, height = 0;
-  // The pixels are [height][width][number of channels].
-  std::variant<const Imath::half*, const float*> pixels{};
+  std::vector<ExrChannel> channels{};  // of different names, in any order
   ExrCompression compression = ExrCompression::kZip;
-  std::vector<std::pair<std::string, ExrValue>> attributes;  // beside those of every file
-  std::vector<std::string> channels{"R", "G", "B"};          // each name once, in pixels' order
+  std::vector<std::pair<std::string, ExrValue>> attributes{};  // beside those of every file
 };
 
 // Writes the whole file, on several threads (side_by_side.h).  The bytes depend on the picture

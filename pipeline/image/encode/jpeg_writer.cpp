@@ -1,16 +1,17 @@
-#include "pipeline/image/encode/jpeg_writer.h"
-
+// clang-format off
+#include <cstdio>  // jpeglib.h needs it before
 #include <jpeglib.h>
+// clang-format on
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdio>  // jpeglib.h needs it before
 #include <stdexcept>
 #include <vector>
 
+#include "pipeline/base/side_by_side.h"
 #include "pipeline/image/encode/dither.h"
-#include "pipeline/image/encode/side_by_side.h"
+#include "pipeline/image/encode/picture_writers.h"
 
 namespace domefall {
 namespace {
@@ -70,9 +71,7 @@ class JpegInTheMaking {
   }
   ~JpegInTheMaking() { jpeg_destroy_compress(&jpeg_); }
   JpegInTheMaking(const JpegInTheMaking&) = delete;
-  JpegInTheMaking(JpegInTheMaking&&) = delete;
   JpegInTheMaking& operator=(const JpegInTheMaking&) = delete;
-  JpegInTheMaking& operator=(JpegInTheMaking&&) = delete;
 
   jpeg_compress_struct& jpeg() { return jpeg_; }
 

@@ -1,19 +1,12 @@
-#include "pipeline/image/encode/png_writer.h"
-
 #include <cstdint>
 
-#include "pipeline/image/encode/deflate.h"
+#include "pipeline/base/deflate.h"
+#include "pipeline/base/side_by_side.h"
 #include "pipeline/image/encode/dither.h"
-#include "pipeline/image/encode/side_by_side.h"
+#include "pipeline/image/encode/picture_writers.h"
 
 namespace domefall {
 namespace {
-
-std::string big_endian_bytes(std::uint32_t number) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
-  return bytes;
-}
 
 // Writes a chunk, whose name has four letters and whose data come in pieces.
 void write_chunk(ByteSink& sink, std::string_view name,
@@ -21,10 +14,10 @@ void write_chunk(ByteSink& sink, std::string_view name,
   std::size_t length = 0;
   std::uint32_t crc = crc32_of(name);
   for (const std::string_view piece : data) length += piece.size(), crc = crc32_of(piece, crc);
-  sink.write(big_endian_bytes(static_cast<std::uint32_t>(length)));
+  sink.write(png_number(static_cast<std::uint32_t>(length)));
   sink.write(name);
   for (const std::string_view piece : data) sink.write(piece);
-  sink.write(big_endian_bytes(crc));
+  sink.write(png_number(crc));
 }
 
 // These are types of filter (the specification's 9.2).  The first row of a strip does not refer to
@@ -83,8 +76,8 @@ class PngStrip {
 
 std::string png_header(const RowPicture& picture, const PngHead& head) {
   constexpr char kRgb = 2;
-  std::string data = big_endian_bytes(static_cast<std::uint32_t>(picture.width)) +
-                     big_endian_bytes(static_cast<std::uint32_t>(picture.height));
+  std::string data = png_number(static_cast<std::uint32_t>(picture.width)) +
+                     png_number(static_cast<std::uint32_t>(picture.height));
   data += head.eight_bits ? '\x08' : '\x10';
   data += kRgb;
   return data + std::string(3, '\0');  // the only compression, the only filters, not interlaced
@@ -92,8 +85,14 @@ std::string png_header(const RowPicture& picture, const PngHead& head) {
 
 }  // namespace
 
+std::string png_number(std::uint32_t number) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xff);
+  return bytes;
+}
+
 std::string png_checksum(std::string_view name_and_data) {
-  return big_endian_bytes(crc32_of(name_and_data));
+  return png_number(crc32_of(name_and_data));
 }
 
 void write_png(ByteSink& sink, const RowPicture& picture, const PngHead& head) {
@@ -113,7 +112,7 @@ void write_png(ByteSink& sink, const RowPicture& picture, const PngHead& head) {
         const bool last = strip + 1 == strips;
         write_chunk(sink, "IDAT",
                     {strip == 0 ? kStreamStart : "", made.packed(), last ? kStreamEnd : "",
-                     last ? big_endian_bytes(sum) : std::string()});
+                     last ? png_number(sum) : std::string()});
       });
   write_chunk(sink, "IEND", {});
 }

@@ -145,7 +145,7 @@ void BlobLayer::place_one_ellipse(const EllipseBlob& ellipse, int first_row, Tas
 // A copy that is shifted by the image's width draws the part on the other side.
 void BlobLayer::place_with_copies(const EllipseBlob& ellipse, int first_row, Task& task) const {
   place_one_ellipse(ellipse, first_row, task);
-  if (!std::holds_alternative<Equirectangular>(projection_)) return;
+  if (!traits_of(projection_).has_seam) return;
   const auto width = static_cast<float>(columns(projection_));
   for (const float shift : {-width, width}) {
     EllipseBlob copy = ellipse;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/simd/vector_math.h"
 #include "pipeline/render/scene/point_spread.h"
-#include "pipeline/simd/vector_math.h"
 #include "projections/projection.h"
 
 namespace domefall {

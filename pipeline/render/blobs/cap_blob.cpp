@@ -6,11 +6,11 @@
 #include <cstring>
 #include <numbers>
 
-#include "pipeline/colour/colour_space.h"
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/lanes.h"
 #include "pipeline/render/blobs/exact_cap.h"
 #include "pipeline/render/blobs/metric_shape.h"
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/simd/lanes.h"
+#include "pipeline/sources/colour/colour_space.h"
 
 namespace domefall {
 namespace {
@@ -21,22 +21,20 @@ using std::numbers::pi;
 // the middle.  On a dome the density along the tangent is theta/sin(theta) times that in the
 // middle.  On a flat image the density is 1/cos^2(theta/2) times that in the middle.
 double densest(const Projection& p, double theta, double reach) {
-  const double far = std::min(theta + reach, 3.0), centre = 1 / central_pixel_angle(p);
-  if (std::holds_alternative<Domemaster>(p)) return centre * std::max(1.0, far / std::sin(far));
+  const double far = std::min(theta + reach, 3.0), centre = 1 / largest_pixel_angle(p);
+  if (is_domemaster(p)) return centre * std::max(1.0, far / std::sin(far));
   const double c = std::cos(far / 2);
   return centre / (c * c);
 }
 
-bool is_dome(const Projection& p) { return std::holds_alternative<Domemaster>(p); }
-
 // Returns the argument `unit` of blob_shape().
-double unit_of(const Projection& p) { return central_pixel_angle(p) / (is_dome(p) ? 1 : 2); }
+double unit_of(const Projection& p) { return largest_pixel_angle(p) / (is_domemaster(p) ? 1 : 2); }
 
 // Far beyond the half sphere the shape is that of a place near its edge, since blob_shape() holds
 // for theta < 1.9 only.  A cap needs the shape only for its scale and for the pixel's blur.
 BlobShape shape_of(const Projection& p, double cx, double cy, double sigma) {
   const double unit = unit_of(p);
-  if (!is_dome(p)) return blob_shape<false>(unit, cx, cy, sigma);
+  if (!is_domemaster(p)) return blob_shape<false>(unit, cx, cy, sigma);
   const double shrink = std::min(1.0, 1.7 / (unit * std::hypot(cx, cy) + 1e-300));
   return blob_shape<true>(unit, cx * shrink, cy * shrink, sigma);
 }
@@ -124,7 +122,7 @@ PreparedCap prepare(const CapBlob& b, const Projection& p, float middle_x, float
   const FlattenedGaussian flattened(s.flattening);
   const double t = unit * unit * (cx * cx + cy * cy);
   PreparedCap cap{};
-  cap.dome = is_dome(p);
+  cap.dome = is_domemaster(p);
   cap.near = b.reach * unit < kNear;
   if (cap.dome)
     cap.series =
@@ -254,7 +252,7 @@ bool place_cap(const Projection& projection, CapBlob& blob) {
   const double width = columns(projection), height = rows(projection);
   const double cx = blob.x - (width - 1) / 2, cy = blob.y - (height - 1) / 2;
   const double from_middle = std::hypot(cx, cy) * unit_of(projection);
-  const bool dome = is_dome(projection);
+  const bool dome = is_domemaster(projection);
   const double theta = dome ? from_middle : 2 * std::atan(from_middle);
   const BlobScale scale = blob_scale(shape_of(projection, cx, cy, blob.sigma), brightest(blob));
   const double q = std::sqrt(-2 * logarithm(scale.cut)), chord = q * blob.sigma;

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <cstring>
 
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/lanes.h"
 #include "pipeline/render/blobs/ellipse_blob.h"
 #include "pipeline/render/scene/point_spread.h"
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/simd/lanes.h"
 
 namespace domefall {
 namespace {

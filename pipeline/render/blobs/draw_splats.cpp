@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "pipeline/simd/dispatch.h"
+#include "pipeline/base/simd/dispatch.h"
 
 namespace domefall {
 namespace {

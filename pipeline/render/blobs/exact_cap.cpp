@@ -5,13 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/colour/colour_space.h"
-#include "pipeline/render/blobs/cap_bounds.h"
-#include "pipeline/render/rays/pixel_directions.h"
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/lanes.h"
+#include "pipeline/base/simd/vector_math.h"
 #include "pipeline/render/scene/point_spread.h"
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/simd/lanes.h"
-#include "pipeline/simd/vector_math.h"
+#include "pipeline/sources/colour/colour_space.h"
+#include "projections/pixel_directions.h"
 
 namespace domefall {
 namespace {
@@ -20,6 +19,12 @@ using std::numbers::pi;
 
 CameraDirection middle_of(const CapBlob& b, const Projection& p) {
   return direction_at(p, {b.x + 1.0, b.y + 1.0});
+}
+
+// Returns the angle (radians) from its middle at which a cap ends.  Its cut must be set.
+double angle_of(const CapBlob& b) {
+  const double chord = std::sqrt(-2 * logarithm(double{b.cut})) * b.sigma;
+  return 2 * std::asin(std::min(1.0, chord / 2));
 }
 
 // Returns the integral over the sphere of exp(-q) - cut, where q = c^2/(2 sigma^2) and c is the
@@ -46,17 +51,6 @@ constexpr double kGauss = 0.28867513459481287;  // 1 / (2 sqrt 3)
 constexpr Points kOnePoint{1, {0}}, kTwoPoints{2, {-kGauss, kGauss}};
 constexpr double kWide = 6;  // pixels; for a Gaussian as wide as this, one point is enough
 
-// Says whether the area of a row's pixels may vary notably within a pixel.  Near a pole a row's
-// width grows in proportion to the distance from the pole.  In the k-th row the centre of the area
-// therefore lies 1/(12 (k + 1/2)) rows from the middle.  A fisheye of nearly the whole sphere
-// stretches the direction opposite to its middle into the whole rim.
-bool has_slanted_areas(const Projection& p, int row) {
-  constexpr int kRows = 2;
-  constexpr double kNearlyWhole = 5;  // radians
-  if (const auto* fisheye = std::get_if<Fisheye>(&p)) return fisheye->fov > kNearlyWhole;
-  return std::holds_alternative<Equirectangular>(p) && (row < kRows || row >= rows(p) - kRows);
-}
-
 // A Weighing says about which middle and with which width directions are weighted.
 struct Weighing {
   V3d middle;
@@ -77,34 +71,13 @@ struct Weighing {
 }
 Dispatched<weigh_loop> weigh;
 
-// Sets the solid angles, in some unit, of pixels in these directions and at these positions.  On a
-// image of the whole sphere they go like cos(latitude).  If `fisheye`, they go like sin(theta)/r
-// at the distance r from the middle of the circle, where they are `central`.
-[[gnu::always_inline]] inline void find_areas_loop(const CameraDirection* n, const double* i,
-                                                   const double* j, const PixelPosition& middle,
-                                                   bool fisheye, double central, int count,
-                                                   float* __restrict area) {
-  const PixelPosition m = middle;
-  for (int k = 0; k < count; ++k) {
-    const double aside = std::sqrt(n[k].v.x * n[k].v.x + n[k].v.y * n[k].v.y);
-    const double x = i[k] - m.i, y = j[k] - m.j;
-    const double from_middle = fisheye ? std::sqrt(x * x + y * y) : 1.0;
-    const bool off = from_middle > 1e-3;
-    area[k] = static_cast<float>(off ? aside / (off ? from_middle : 1.0) : central);
-  }
-}
-Dispatched<find_areas_loop> find_areas;
-
 class ExactCap {
  public:
   ExactCap(const CapBlob& blob, const Projection& projection)
       : projection_(projection),
-        wide_(blob.sigma > kWide * central_pixel_angle(projection)),
+        wide_(blob.sigma > kWide * largest_pixel_angle(projection)),
         weighing_{middle_of(blob, projection).v, 1 / (2 * double{blob.sigma} * blob.sigma),
-                  blob.cut},
-        middle_(pixel_of(projection, {{0, 0, 1}}).value_or(PixelPosition{0, 0})),
-        areas_differ_(std::holds_alternative<Equirectangular>(projection) ||
-                      std::holds_alternative<Fisheye>(projection)) {
+                  blob.cut} {
     const auto light =
         static_cast<float>(luminance({blob.rgb[0], blob.rgb[1], blob.rgb[2]})) * blob.peak_per_flux;
     // The bound keeps the square of this value finite.
@@ -146,12 +119,7 @@ class ExactCap {
     const auto number = static_cast<int>(all);
     find_directions(projection_, i.data(), j.data(), number, n.data(), angle.data());
     weigh(weighing_, n.data(), number, of_point.data());
-    if (areas_differ_)
-      find_areas(n.data(), i.data(), j.data(), middle_,
-                 std::holds_alternative<Fisheye>(projection_), central_pixel_angle(projection_),
-                 number, area.data());
-    else
-      std::fill_n(area.begin(), all, 1.0f);
+    find_areas(projection_, n.data(), i.data(), j.data(), number, area.data());
     std::array<float, kPixelsAtOnce> light{}, whole{};
     for (std::size_t point = 0; point < all; point += pixels)
       for (std::size_t k = 0; k < pixels; ++k) {
@@ -172,8 +140,6 @@ class ExactCap {
   const Projection& projection_;
   bool wide_;
   Weighing weighing_;
-  PixelPosition middle_;         // of a fisheye's circle
-  bool areas_differ_;            // areas vary notably within a pixel, somewhere in the image
   float paling_ = 0;             // the colour is half white where this times the weight is 1
   std::array<float, 3> colour_;  // at the peak
   std::array<float, 3> pale_;    // grey of the same luminance, minus the colour
@@ -191,7 +157,20 @@ bool place_exact_cap(const Projection& projection, CapBlob& blob) {
   const double first = light / integral_of_weight(sigma, cut_of(whole));
   blob.cut = static_cast<float>(cut_of(first));
   blob.peak_per_flux = static_cast<float>(1 / integral_of_weight(sigma, double{blob.cut}));
-  return bound_cap(projection, middle_of(blob, projection), blob);
+  const auto box = cap_box(projection, middle_of(blob, projection), angle_of(blob));
+  const double width = columns(projection), height = rows(projection);
+  if (!box || !(blob.x + box->right >= 0 && blob.y + box->down >= 0 &&
+                blob.x - box->left <= width - 1 && blob.y - box->up <= height - 1))
+    return false;
+  const auto within = [](double v, double last) {
+    return static_cast<int>(std::clamp(v, 0.0, last));
+  };
+  blob.reach = static_cast<float>(box->reach);
+  blob.first_row = within(std::ceil(blob.y - box->up), height - 1);
+  blob.last_row = within(std::floor(blob.y + box->down), height - 1);
+  blob.first_column = within(std::ceil(blob.x - box->left), width - 1);
+  blob.last_column = within(std::floor(blob.x + box->right), width - 1);
+  return true;
 }
 
 void draw_exact_cap(const CapBlob& blob, const Projection& projection, const Canvas& canvas) {
@@ -199,10 +178,10 @@ void draw_exact_cap(const CapBlob& blob, const Projection& projection, const Can
   const int last = std::min(blob.last_row, canvas.first_row + canvas.rows - 1);
   if (first > last) return;
   const ExactCap cap(blob, projection);
-  const double reach = angular_reach(blob);
+  const CapPlace place{blob.x,          blob.y, angle_of(blob), blob.reach, blob.first_column,
+                       blob.last_column};
   for (int row = first; row <= last; ++row) {
-    const CapSpans spans =
-        spans_of(blob, projection, reach, row, canvas.columns[row - canvas.first_row]);
+    const CapSpans spans = spans_of(projection, place, row, canvas.columns[row - canvas.first_row]);
     for (std::size_t k = 0; k < spans.count; ++k)
       cap.add(row, spans.span[k].first, spans.span[k].last, canvas.at(row, spans.span[k].first));
   }

@@ -58,7 +58,7 @@ void merge(const Projection& projection, const Member* first, const Member* end,
 
 void merge_crowds(const Projection& projection, std::vector<CapBlob>& blobs) {
   if (blobs.size() < kCrowd) return;
-  const double pixels_per_radian = 1 / central_pixel_angle(projection);
+  const double pixels_per_radian = 1 / largest_pixel_angle(projection);
   std::vector<Member> members(blobs.size());
   for (std::size_t k = 0; k < blobs.size(); ++k)
     members[k] = {square_of(blobs[k], pixels_per_radian), static_cast<std::uint32_t>(k)};

@@ -9,13 +9,8 @@ namespace domefall {
 // Says whether blob_shape<kDome>(), and the loops that are made of it, hold for a projection.  They
 // serve the two projections in which most frames are drawn.
 inline bool has_blob_loops(const Projection& p) {
-  return std::holds_alternative<Domemaster>(p) || std::holds_alternative<Stereographic>(p);
+  return is_domemaster(p) || traits_of(p).keeps_circles;
 }
-
-// Returns an upper bound, over all directions, of the relative change of the image's scale per
-// radian.  This is the logarithmic derivative of the angle that a pixel covers, or the curvature of
-// the circles of latitude.  It grows without bound towards a pole or the back of a fisheye.
-double scale_change_per_radian(const Projection& p, const CameraDirection& n);
 
 // Returns the shape of a blob of width sigma (radians) whose middle is at n.  The metric is that at
 // n and must not be degenerate.

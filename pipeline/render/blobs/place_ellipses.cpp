@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
+#include "pipeline/base/simd/dispatch.h"
 #include "pipeline/render/blobs/ellipse_blob.h"
 #include "pipeline/render/blobs/metric_shape.h"
-#include "pipeline/simd/dispatch.h"
 
 namespace domefall {
 namespace {
@@ -123,7 +123,7 @@ void place_batch(const Projection& projection, const ImagePlane& plane, const St
   }
   if (!has_blob_loops(projection))
     place_by_metric(projection, plane, p);
-  else if (std::holds_alternative<Domemaster>(projection))
+  else if (is_domemaster(projection))
     place_on_dome(plane, p);
   else
     place_on_flat(plane, p);
@@ -145,16 +145,16 @@ std::optional<BlobShape> wide_shape(const Projection& projection, const CapBlob&
     const PixelPosition at{cap.x + 1.0, cap.y + 1.0};
     const CameraDirection n = direction_at(projection, at);
     // Only the smaller ellipses are copied to the other side of a seam (BlobLayer).
-    const bool on_seam = std::holds_alternative<Equirectangular>(projection) &&
-                         !(cap.x > cap.reach && cap.x + cap.reach < width - 1);
+    const bool on_seam =
+        traits_of(projection).has_seam && !(cap.x > cap.reach && cap.x + cap.reach < width - 1);
     if (on_seam || !(scale_change_per_radian(projection, n) * sigma < kMostFaintScaleChange))
       return std::nullopt;
     const BlobShape s = blob_shape(projection, pixel_metric(projection, at), n, sigma);
     return is_slanted(s) ? std::nullopt : std::optional(s);
   }
-  const bool dome = std::holds_alternative<Domemaster>(projection);
+  const bool dome = is_domemaster(projection);
   const double cx = cap.x - (width - 1) / 2.0, cy = cap.y - (rows(projection) - 1) / 2.0;
-  const double unit = central_pixel_angle(projection) / (dome ? 1 : 2);
+  const double unit = largest_pixel_angle(projection) / (dome ? 1 : 2);
   if (!dome) return blob_shape<false>(unit, cx, cy, sigma);
   if (unit * std::hypot(cx, cy) > 1.7) return std::nullopt;
   return blob_shape<true>(unit, cx, cy, sigma);
@@ -165,9 +165,9 @@ std::optional<BlobShape> wide_shape(const Projection& projection, const CapBlob&
 void place_ellipses(const Projection& projection, const StarImage* images, const double* sigma,
                     std::size_t count, double most_peak, EllipseBlob* blobs, int* first_row,
                     BlobKind* kind) {
-  const bool dome = std::holds_alternative<Domemaster>(projection);
+  const bool dome = is_domemaster(projection);
   const double width = columns(projection), height = rows(projection);
-  const double unit = central_pixel_angle(projection) / (dome ? 1 : 2);
+  const double unit = largest_pixel_angle(projection) / (dome ? 1 : 2);
   const ImagePlane plane{unit, (width - 1) / 2, (height - 1) / 2, width, height, most_peak};
   for (std::size_t k = 0; k < count; k += kPlacedAtOnce)
     place_batch(projection, plane, images + k, sigma + k, std::min(kPlacedAtOnce, count - k),

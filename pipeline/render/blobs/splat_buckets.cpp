@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/simd/vector_math.h"
+#include "pipeline/base/simd/vector_math.h"
 
 namespace domefall {
 namespace {
@@ -57,10 +57,8 @@ int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 }  // namespace
 
 SplatBuckets::SplatBuckets(const Projection& projection, double sigma)
-    : dome_(std::holds_alternative<Domemaster>(projection)),
-      width_(columns(projection)),
-      height_(rows(projection)) {
-  const double pixel = central_pixel_angle(projection), unit = dome_ ? pixel : pixel / 2;
+    : dome_(is_domemaster(projection)), width_(columns(projection)), height_(rows(projection)) {
+  const double pixel = largest_pixel_angle(projection), unit = dome_ ? pixel : pixel / 2;
   const double variance = sigma * sigma / (pixel * pixel),
                wanted = variance + kPixelVariance - kSplineVariance;
   frame_ = {static_cast<float>((width_ - 1) / 2.0), static_cast<float>((height_ - 1) / 2.0),

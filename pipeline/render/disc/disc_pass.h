@@ -1,19 +1,19 @@
 // A DiscPass draws the light of a disc into bands of pixel rows, and hides the light behind it.
 //
-// A view ray, followed back in time, sweeps the angle psi.  It meets the plane of the disc at
-// psi_0, psi_0 + pi, psi_0 + 2 pi and so on, where it sees the direct image, the image from beneath
-// and the photon rings.  How much of a pixel an image covers follows from the pixel's distance to
-// the image's two rims (DiscImages), so that no image is too thin to be seen.  For an observer
-// close to the plane, psi_0 changes much within the pixels next to the plane.  These are divided in
-// psi.
+// A view ray meets the plane of the disc several times (plane_rays.h).  How much of a pixel an image
+// covers follows from the pixel's distance to the image's two rims (PlaneImages), so that no image is
+// too thin to be seen.  For an observer close to the plane, psi_0 changes much within the pixels next
+// to the plane.  These are divided in psi.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <vector>
 
-#include "pipeline/disc/disc_light.h"
-#include "pipeline/disc/disc_pattern.h"
-#include "pipeline/render/disc/disc_images.h"
+#include "pipeline/light/plane_rays.h"
 #include "pipeline/render/scene/frame_scene.h"
+#include "pipeline/sources/disc/disc_light.h"
+#include "pipeline/sources/disc/disc_pattern.h"
 
 namespace domefall {
 
@@ -26,44 +26,53 @@ class DiscPass {
   explicit DiscPass(const FrameScene& scene);
 
   // Lays the disc over the rows [first, end) of the image.  `rgb` points to the row `first`, and
-  // each row has 3 values for each column.
-  void draw_rows(int first, int end, float* rgb) const;
+  // each row has 3 values for each column.  Where `left` is not null, it has one for each column,
+  // which is set to the part of the light from behind that the disc lets through; pixels without
+  // any disc are left as they are.
+  void draw_rows(int first, int end, float* rgb, float* left = nullptr) const;
   // Does the same with each pixel computed by itself.  This is slower, and tests compare
   // draw_rows() with it.
   void draw_rows_singly(int first, int end, float* rgb) const;
 
   // Returns the part of the light from a place on a ray that the disc in front of it lets through.
   // The ray is seen in direction n, and the place lies psi radians along it.  Across a rim of the
-  // disc the part changes smoothly over a pixel.
-  double left_before(const CameraDirection& n, double psi) const;
+  // disc the part changes smoothly over a pixel, which is `width` radians wide.
+  double left_before(const CameraDirection& n, double psi, double width) const;
 
-  struct Crossings;
+  // A Place is where a view ray meets the disc.
+  struct Place {
+    int order;               // of the image: 0 for the direct one
+    double r, azimuth;       // of the gas, M and radians about the normal from the disc's node
+    double frequency_ratio;  // observed / emitted
+    double covered;          // the part of a pixel that the image covers, 0 to 1
+  };
+  // Returns the places on the ray in direction n, for a pixel of `width` radians, the nearest to the
+  // observer first.  What lies behind an opaque image that covers the pixel is left out.
+  std::vector<Place> places(const CameraDirection& n, double width) const;
+
+  // These are the crossings of the view rays of a batch of pixels.
+  struct Crossings : PlaneCrossings {
+    FrameRayBatch rays;
+  };
 
  private:
   class Strip;
   class Row;
-  void draw(Row& line, int first, int end, float* rgb) const;
+  void draw(Row& line, int first, int end, float* rgb, float* left) const;
   void locate(const CameraDirection* n, const double* angle, int count, Crossings& crossings) const;
+  // Gas is at r, and its light is seen at `frequency_ratio` times the frequency that it has there.
+  struct Gas {
+    double r, frequency_ratio;
+  };
+  // Returns the gas that a ray meets after `turn`, whose label is the part u of the image's interval.
+  Gas gas_at(const Crossings& crossings, int k, double turn, double label, double u,
+             double azimuth_sine) const;
+  bool goes_outward(double turn, double label, double u) const;
 
   const FrameScene& scene_;
-  DiscImages images_;
-  double r_, s_, one_minus_s_;
-  double label_sign_;   // the sign of p = k^r/L against its form in the rain frame
-  double energy_sign_;  // the sign that the frame gives E of light from region I
-  // A Clock takes the observer's null time, v or u, to the time t at which light set out.
-  struct Clock {
-    explicit Clock(const ObserverState& observer);
-    double time_at(double r, double delay) const;
-
-    bool outgoing;
-    double null_time, observer_v;
-  };
-  Clock clock_;
+  std::unique_ptr<const PlaneRays> plane_;
   std::optional<DiscPattern> pattern_;
   V3d node_, quarter_;  // where azimuths of the pattern begin, and a quarter of a turn on
-  // The disc's normal is given by its part along R, by the length of its part across R, and by the
-  // cosine and the sine of the angle from Theta to that part.
-  double normal_up_, normal_across_, normal_cosine_, normal_sine_;
 };
 
 }  // namespace domefall

@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include "pipeline/render/disc/rim_coverage.h"
-#include "pipeline/render/rays/pixel_directions.h"
+#include "pipeline/spacetime/schwarzschild.h"
+#include "projections/pixel_directions.h"
 
 namespace domefall {
 namespace {
@@ -23,9 +24,9 @@ constexpr double kFaster = 1.6;
 // to the four nodes.  That product is at most 1 in steps, so the error is at most 1/24 of the
 // fourth difference.
 constexpr float kMostThird = 0.02f, kMostFourth = 0.006f, kNextToRim = 0.25f;
-// A Place says where a ray lies relative to the image of an order.  kWherePlunging is apart from
+// A Side says where a ray lies relative to the image of an order.  kWherePlunging is apart from
 // kWithin because the light has a kink where gas begins to plunge, which no cubic may cross.
-enum Place : unsigned { kBeneath, kWithin, kWherePlunging, kAbove };
+enum Side : unsigned { kBeneath, kWithin, kWherePlunging, kAbove };
 // Five nodes have two third differences and one fourth difference, by which a cubic is judged.
 constexpr std::size_t kJudges = 5;
 
@@ -47,10 +48,10 @@ CellWeights cell_weights(double first_cell) {
 // are known.  For two boosts in a row gamma = gamma_1 gamma_2 (1 + v_1.v_2), which is at most
 // 2 gamma_1 gamma_2.
 double most_gamma(const FrameScene& scene) {
-  const Vantage& vantage = scene.tracer.vantage();
-  const double gamma = std::sqrt(1 + vantage.celerity.dot(vantage.celerity));
+  const Viewer& viewer = scene.tracer.viewer();
+  const double gamma = std::sqrt(1 + viewer.celerity.dot(viewer.celerity));
   if (!scene.tracer.goes_straight()) return gamma;
-  return 2 * gamma * std::sqrt(1 + vantage.rest.dot(vantage.rest));
+  return 2 * gamma * std::sqrt(1 + viewer.rest.dot(viewer.rest));
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ double most_gamma(const FrameScene& scene) {
 bool DiscPass::Row::is_steady(const FrameScene& scene) {
   // The Doppler factor is gamma (1 + v cos a).  Its relative change with the angle a is at most
   // gamma v for each radian.
-  return kStep * central_pixel_angle(scene.projection()) * most_gamma(scene) < kSteady;
+  return kStep * largest_pixel_angle(scene.projection()) * most_gamma(scene) < kSteady;
 }
 
 DiscPass::Row::Row(const DiscPass& pass, bool with_nodes)
@@ -71,11 +72,12 @@ DiscPass::Row::Row(const DiscPass& pass, bool with_nodes)
   single_.reserve(width);
 }
 
-void DiscPass::Row::draw(int row, float* rgb) {
+void DiscPass::Row::draw(int row, float* rgb, float* left) {
   const ColumnRange inside = inside_columns(pass_.scene_.projection(), row);
   const int width = inside.last - inside.first + 1;
   if (width <= 0) return;
   first_ = inside.first;
+  left_ = left;
   single_.clear();
   const int cells = with_nodes_ ? (width - 1) / kStep : 0;
   nodes_.resize(static_cast<std::size_t>(cells) + 1);
@@ -138,23 +140,23 @@ DiscPass::Row::Node DiscPass::Row::sighted(const Crossings& crossings, int k) co
   }
   // Where the azimuth or psi_0 changes too much from node to node, the clearance stays 0.
   const double turned = kStep * crossings.azimuth_per[k];
-  const double toward = pass_.normal_across_ * crossings.azimuth_cosine[k];
-  const double from_plane = std::sqrt(pass_.normal_up_ * pass_.normal_up_ + toward * toward);
-  if (turned > kSteady || turned * pass_.normal_across_ > kSteady * from_plane) return node;
+  const double toward = pass_.plane_->across() * crossings.azimuth_cosine[k];
+  const double up = pass_.plane_->up(), from_plane = std::sqrt(up * up + toward * toward);
+  if (turned > kSteady || turned * pass_.plane_->across() > kSteady * from_plane) return node;
   const double p = crossings.label[k], per = crossings.label_per[k];
-  const DiscImages& images = pass_.images_;
+  const PlaneImages& images = pass_.plane_->images();
   double clearance = kFar;
   // Each order sets two bits of the sight.  A ray far from the range of an order needs no interval.
   for (int order = 0; order < images.orders(); ++order) {
     const double beneath = (images.least(order) - p) / per,
                  above = (p - images.greatest(order)) / per;
-    Place place = kBeneath;
+    Side place = kBeneath;
     constexpr double kNotNear = 4 * kStep;
     if (above > kNotNear) {
       place = kAbove;
     } else if (!(beneath > kNotNear)) {
       const double turn = crossings.turn[k] + order * pi, turn_per = crossings.turn_per[k];
-      const DiscImages::Interval rims = images.interval(turn);
+      const PlaneImages::Interval rims = images.interval(turn);
       const double over_low = (p - rims.low) / (per + std::abs(rims.low_slope) * turn_per),
                    over_high = (p - rims.high) / (per + std::abs(rims.high_slope) * turn_per);
       clearance = std::min({clearance, std::abs(over_low), std::abs(over_high)});
@@ -162,8 +164,8 @@ DiscPass::Row::Node DiscPass::Row::sighted(const Crossings& crossings, int k) co
         place = kAbove;
       } else if (over_low >= 0) {
         const double u = (p - rims.low) / (rims.high - rims.low);
-        const bool plunges = pass_.scene_.disc->disc().inner < kLastStableOrbit &&
-                             images.inverse_radius(turn, u) * kLastStableOrbit > 1;
+        const bool plunges = pass_.scene_.disc->disc().inner < kPlungesBelow &&
+                             images.inverse_radius(turn, u) * kPlungesBelow > 1;
         place = plunges ? kWherePlunging : kWithin;
       }
     }
@@ -221,7 +223,9 @@ bool DiscPass::Row::draw_cell(std::size_t cell, std::size_t first, std::size_t l
   for (std::size_t k = 0; k < values.size(); ++k)
     for (std::size_t c = 0; c < 3; ++c) values[k][c] = exposure_ * judges[from - judge + k][c];
   const float left = nodes_[cell].left;
-  float* pixel = rgb + 3 * (first_ + static_cast<std::ptrdiff_t>(cell) * kStep);
+  const std::ptrdiff_t column = first_ + static_cast<std::ptrdiff_t>(cell) * kStep;
+  if (left_) std::fill_n(left_ + column, kStep, left);
+  float* pixel = rgb + 3 * column;
   for (const std::array<float, 4>& w : weights) {
     for (std::size_t c = 0; c < 3; ++c)
       pixel[c] = left * pixel[c] + (w[0] * values[0][c] + w[1] * values[1][c] +
@@ -239,6 +243,7 @@ void DiscPass::Row::draw_singly(int row, float* rgb) {
     strip_.gather(crossings_, count);
     for (int k = 0; k < count; ++k) {
       const auto left = static_cast<float>(strip_.left(k));
+      if (left_) left_[column[k]] = left;
       const WorkingRgb& light = strip_.light(k);
       float* pixel = rgb + 3 * static_cast<std::ptrdiff_t>(column[k]);
       pixel[0] = left * pixel[0] + exposure_ * light.r;

@@ -21,8 +21,9 @@ class DiscPass::Row {
   // Without nodes, each pixel is computed by itself.
   Row(const DiscPass& pass, bool with_nodes);
 
-  // Lays the disc over the row's pixels, rgb[3 columns].
-  void draw(int row, float* rgb);
+  // Lays the disc over the row's pixels, rgb[3 columns].  `left` is null or has one value a column
+  // (DiscPass::draw_rows).
+  void draw(int row, float* rgb, float* left);
 
  private:
   static constexpr int kStep = 8;  // pixels from node to node
@@ -50,6 +51,7 @@ class DiscPass::Row {
   bool with_nodes_;
   Strip strip_;
   Crossings crossings_;
+  float* left_ = nullptr;
   int first_ = 0;  // column of the first node
   std::vector<Node> nodes_;
   std::vector<int> single_;  // columns of pixels that are computed one by one

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/disc/disc_shift.h"
+#include "pipeline/base/simd/vector_math.h"
 #include "pipeline/render/disc/rim_coverage.h"
 #include "pipeline/render/disc/veil.h"
 #include "pipeline/render/scene/effect_ratios.h"
-#include "pipeline/simd/vector_math.h"
+#include "pipeline/sources/disc/disc_light.h"
 
 namespace domefall {
 namespace {
@@ -45,37 +45,27 @@ void DiscPass::Strip::gather(const Crossings& crossings, int count, const bool* 
 // Divides a pixel so that psi_0 changes little in each division, and returns the part of the light
 // from behind that is left.
 double DiscPass::Strip::gather_by_divisions(const Crossings& crossings, int k) {
-  // psi_0 = atan2(up, across cos(azimuth)) grows as |azimuth| grows from 0 to pi.
-  const double up = std::abs(pass_.normal_up_), across = pass_.normal_across_;
+  const PlaneRays& plane = *pass_.plane_;
   const double azimuth = arc_tangent2(crossings.azimuth_sine[k], crossings.azimuth_cosine[k]);
   const double half = std::min(crossings.azimuth_per[k], pi) / 2;
-  const auto turn_at = [&](double at) {
-    const double turn = arc_tangent2(up, across * sin_cos(at).cosine);
-    return turn > 0 ? turn : pi;
-  };
-  // This inverts turn_at for azimuths from 0 to pi: cos(azimuth) = up cos psi_0/(across sin psi_0).
-  const auto azimuth_at = [&](double turn) {
-    const SineCosine t = sin_cos(turn);
-    const double x = up * t.cosine, length = across * t.sine;
-    return arc_tangent2(std::sqrt(std::max(0.0, (length - x) * (length + x))), x);
-  };
   double left = 0;
   const auto divide = [&](double first, double last) {  // where psi_0 is monotone
     if (!(last > first)) return;
-    const double begin = turn_at(first), end = turn_at(last);
+    const double begin = plane.turn_at(first), end = plane.turn_at(last);
     const int count = std::clamp(static_cast<int>(std::ceil(std::abs(end - begin) / kMostTurn)), 1,
                                  kMostDivisions);
     double before = first;
     for (int n = 1; n <= count; ++n) {
       const double until = begin + (end - begin) * n / count;
-      const double turned = azimuth_at(until);
+      const double turned = plane.azimuth_at(until);
       const double sign = first + last < 0 ? -1 : 1;
       const double after = n == count ? last : sign * turned;
       const double part = std::abs(after - before) / (2 * half);
       const SineCosine middle = sin_cos((before + after) / 2);
-      left += part * gather_division(crossings, k,
-                                     {turn_at((before + after) / 2), std::abs(end - begin) / count,
-                                      middle.cosine, middle.sine, part});
+      left +=
+          part * gather_division(crossings, k,
+                                 {plane.turn_at((before + after) / 2),
+                                  std::abs(end - begin) / count, middle.cosine, middle.sine, part});
       before = after;
     }
   };
@@ -94,14 +84,14 @@ double DiscPass::Strip::gather_by_divisions(const Crossings& crossings, int k) {
 // Adds the samples of a division, and returns the part of the light from behind that is left there.
 double DiscPass::Strip::gather_division(const Crossings& crossings, int k,
                                         const Division& division) {
-  const DiscImages& images = pass_.images_;
+  const PlaneImages& images = pass_.plane_->images();
   const double p = crossings.label[k], per = crossings.label_per[k];
-  Veil<DiscImages::kOrders> veil;
+  Veil<PlaneImages::kOrders> veil;
   double left = 1;
   for (int order = 0; order < images.orders() && left > 1e-4; ++order) {
     if (p + per < images.least(order) || p - per > images.greatest(order)) continue;
     const double turn = division.turn + order * pi;
-    const DiscImages::Interval rims = images.interval(turn);
+    const PlaneImages::Interval rims = images.interval(turn);
     const Share share{
         beyond_rim((p - rims.high) / length(per, rims.high_slope * division.turn_per)),
         beyond_rim((p - rims.low) / length(per, rims.low_slope * division.turn_per))};
@@ -116,7 +106,7 @@ double DiscPass::Strip::gather_division(const Crossings& crossings, int k,
 // Adds the light of the part of an image that a pixel sees.  This is the mean over that part of the
 // interval, with the pixel's own weights, so that all pixels together count each place once.
 void DiscPass::Strip::shade(const Crossings& crossings, int k, const Division& division,
-                            double turn, const DiscImages::Interval& rims, const Share& share,
+                            double turn, const PlaneImages::Interval& rims, const Share& share,
                             double weight) {
   const double width = rims.high - rims.low, p = crossings.label[k];
   // `per` is the change of p across the pixel, relative to the image.  The slope of the image along
@@ -144,20 +134,7 @@ void DiscPass::Strip::shade(const Crossings& crossings, int k, const Division& d
 // Notes one sample: its radius, its frequency ratio g as the observer measures it, and its weight.
 void DiscPass::Strip::put(const Crossings& crossings, int k, const Division& division, double turn,
                           double label, double u, double weight) {
-  const double r = 1 / pass_.images_.inverse_radius(turn, u);
-  const double w0 = 1 / pass_.r_;
-  const bool straight = pass_.scene_.tracer.goes_straight();
-  // The orbit equation w'^2 = 1/b^2 - w^2 + 2 w^3, taken at the observer, where w' = p, gives
-  // 1/b^2 = p^2 + w_0^2 - 2 w_0^3.  Straight light has no cubic term.
-  const double inverse_b2 = label * label + w0 * w0 * (straight ? 1 : 1 - 2 * w0);
-  const double energy = crossings.energy[k];
-  const double momentum = energy / std::sqrt(std::max(inverse_b2, 1e-300));
-  // L times `about` is L_n = -L (r^ x e^).n of disc_shift.h.
-  const double about =
-      (pass_.normal_up_ > 0 ? -1 : 1) * pass_.normal_across_ * division.azimuth_sine;
-  const double shift = disc_shift({energy, momentum, momentum * about}, r,
-                                  r < kLastStableOrbit && outward(turn, label, u));
-  const double g = crossings.rays.frequency[k] / shift;
+  const auto [r, g] = pass_.gas_at(crossings, k, turn, label, u, division.azimuth_sine);
   samples_.r[count_] = static_cast<float>(r);
   samples_.g[count_] = static_cast<float>(colour_ratio(effects_, g));
   samples_.weight[count_] = static_cast<float>(weight * surface_brightness_ratio(effects_, g));
@@ -169,32 +146,18 @@ void DiscPass::Strip::put(const Crossings& crossings, int k, const Division& div
 // the sample covers.
 void DiscPass::Strip::note_place(const Crossings& crossings, int k, const Division& division,
                                  double turn, double u, double part) {
-  const DiscImages::Moment at = pass_.images_.moment(turn, u);
-  const SineCosine turned = sin_cos(turn);
+  const PlaneImages::Moment at = pass_.plane_->images().moment(turn, u);
   const double r = 1 / at.w;
-  // The tangent e^ lies at this azimuth about R from the normal's part across R, as in
-  // locate_on_disc_loop.  The place is cos(turn) r^ + sin(turn) e^.
-  const double side = pass_.normal_up_ > 0 ? -1 : 1;
-  const double along = side * division.azimuth_cosine, beside = side * division.azimuth_sine;
-  const double up = pass_.normal_cosine_, aside = pass_.normal_sine_;
-  const V3d place(turned.cosine, turned.sine * (along * up - beside * aside),
-                  turned.sine * (along * aside + beside * up));
-  const double time = disc_.slow_light ? pass_.clock_.time_at(r, at.time) : pass_.clock_.observer_v;
+  const V3d place = pass_.plane_->place(turn, division.azimuth_cosine, division.azimuth_sine);
+  const double time =
+      disc_.slow_light ? pass_.plane_->time_at(r, at.time) : pass_.plane_->observer_time();
   // Across the pixel the place moves along psi, and at right angles to that about R.  The gas also
   // turns on while the time of emission changes.
   const double moved = length(division.turn_per,
-                              turned.sine * crossings.azimuth_per[k] * division.part),
+                              sin_cos(turn).sine * crossings.azimuth_per[k] * division.part),
                aged = disc_.slow_light ? angular_velocity(r) * at.time_slope * part : 0;
   samples_.place[count_ - 1] = {r, arc_tangent2(place.dot(pass_.quarter_), place.dot(pass_.node_)),
                                 time, std::abs(at.w_slope) * part * r * r, length(moved, aged)};
-}
-
-// Says whether light sets out to larger radii.  If so, w grows along the ray back in time.
-bool DiscPass::Strip::outward(double turn, double label, double u) const {
-  constexpr double kStep = 1e-3;
-  const DiscImages::Interval later = pass_.images_.interval(turn + kStep);
-  const double then = std::clamp((label - later.low) / (later.high - later.low), 0.0, 1.0);
-  return pass_.images_.inverse_radius(turn + kStep, then) > pass_.images_.inverse_radius(turn, u);
 }
 
 // Turns the waiting samples into light and adds it to their pixels.

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "pipeline/render/disc/disc_crossings.h"
+#include "pipeline/render/disc/disc_pass.h"
 
 namespace domefall {
 
@@ -40,12 +40,11 @@ class DiscPass::Strip {
   double gather_by_divisions(const Crossings& crossings, int k);
   double gather_division(const Crossings& crossings, int k, const Division& division);
   void shade(const Crossings& crossings, int k, const Division& division, double turn,
-             const DiscImages::Interval& rims, const Share& share, double weight);
+             const PlaneImages::Interval& rims, const Share& share, double weight);
   void put(const Crossings& crossings, int k, const Division& division, double turn, double label,
            double u, double weight);
   void note_place(const Crossings& crossings, int k, const Division& division, double turn,
                   double u, double part);
-  bool outward(double turn, double label, double u) const;
   void flush();
 
   const DiscPass& pass_;

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <utility>
 
-#include "pipeline/render/overlay/seam.h"
+#include "pipeline/render/overlay/stroke.h"
 
 namespace domefall {
 namespace {
@@ -45,7 +46,6 @@ class OutlineBender {
     return polygon;
   }
 
-  // Appends the image of a point.  Says whether it has one.
   bool append(const TextPoint& p, ImagePolygon& polygon) const {
     const auto place = place_(p);
     if (place) polygon.push_back(*place);
@@ -87,13 +87,21 @@ class OutlineBender {
   double pixels_of_radian_;
 };
 
+// Returns the latitude of the text's middle about the pole of its lines.  It is the elevation up to
+// 60 degrees.  From there on it falls twice as fast as the elevation rises, to 0 at the zenith.
+double latitude_for(double elevation) {
+  constexpr double kRight = std::numbers::pi / 2;
+  const double above = std::min(std::abs(elevation), 2 * (kRight - std::abs(elevation)));
+  return std::copysign(std::max(above, 0.0), elevation);
+}
+
 }  // namespace
 
 void add_text(const LetteredText& text, const TextSurface& surface, const TextPoint& shift,
               const Projection& projection, Coverage& coverage) {
   const auto place = [&](const TextPoint& p) -> std::optional<ImagePoint> {
     const CameraDirection n = surface.direction({p.x + shift.x, p.y + shift.y});
-    const bool seen = n.v.z > kBehind || std::holds_alternative<Equirectangular>(projection);
+    const bool seen = n.v.z > kBehind || traits_of(projection).has_seam;
     const auto pixel = seen ? pixel_of(projection, n) : std::nullopt;
     return pixel ? std::optional(image_point(*pixel)) : std::nullopt;
   };
@@ -113,6 +121,45 @@ void add_flat_text(const LetteredText& text, const ImagePoint& middle, double ca
   OutlineBender(place, HUGE_VAL).each_polygon(text, [&](const ImagePolygon& polygon) {
     coverage.add(polygon);
   });
+}
+
+TextSurface::TextSurface(const M33d& camera_from_audience, double azimuth, double elevation,
+                         double height) {
+  const double ca = std::cos(azimuth), sa = std::sin(azimuth), ce = std::cos(elevation),
+               se = std::sin(elevation);
+  const V3d middle(ce * sa, ce * ca, se), up(-se * sa, -se * ca, ce);
+  const double latitude = latitude_for(elevation);
+  const double cl = std::cos(latitude), sl = std::sin(latitude);
+  right_ = apply(camera_from_audience, V3d(ca, -sa, 0));
+  front_ = apply(camera_from_audience, middle * cl - up * sl);
+  pole_ = apply(camera_from_audience, middle * sl + up * cl);
+  // Mercator's ordinate of a latitude is asinh(tan(latitude)), and the sphere is cos(latitude)
+  // times as large there as the map.
+  scale_ = height / cl;
+  start_ = std::asinh(std::tan(latitude));
+}
+
+CameraDirection TextSurface::direction(const TextPoint& p) const {
+  const double around = p.x * scale_, ordinate = start_ + p.y * scale_;
+  // By the inverse of Mercator's projection, the cosine of the latitude is 1/cosh(ordinate) and the
+  // sine is tanh(ordinate).
+  const double across = 1 / std::cosh(ordinate);
+  return {(front_ * std::cos(around) + right_ * std::sin(around)) * across +
+          pole_ * std::tanh(ordinate)};
+}
+
+void add_outlines(Digest& digest, const LetteredText& text) {
+  constexpr double kSteps = 1e5;
+  // Adding 0 turns -0 into 0, so that both count as one number.
+  const auto add = [&digest](const TextPoint& p) {
+    digest.add(std::round(p.x * kSteps) + 0.0).add(std::round(p.y * kSteps) + 0.0);
+  };
+  for (const TextOutline& outline : text.outlines) {
+    digest.add("outline");
+    add(outline.start);
+    for (const TextCurve& curve : outline.curves)
+      for (const TextPoint& p : {curve.control1, curve.control2, curve.end}) add(p);
+  }
 }
 
 }  // namespace domefall

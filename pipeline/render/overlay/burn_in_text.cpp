@@ -4,57 +4,52 @@
 
 #include <cmath>
 
-#include "pipeline/render/overlay/seen_better.h"
 #include "pipeline/render/rays/shift_range.h"
-#include "pipeline/show/show_time.h"
+#include "pipeline/show/file/show_time.h"
 
 namespace domefall {
 namespace {
 
 // Writes a number with about five digits, so that its length changes little from frame to frame.
-std::string steady_number(double value) {
+std::string five_digits(double value) {
   const double size = std::abs(value);
   if (size != 0 && (size < 1e-3 || size >= 1e5)) return fmt::format("{:.3e}", value);
   return fmt::format("{:.{}f}", value, size < 10 ? 4 : size < 1000 ? 2 : 0);
 }
 
 std::string motion_text(const Show& show, const ObserverState& o) {
-  const bool has_rest = is_flat(o) || o.r > 2;
   std::string text;
-  if (has_rest) {
+  if (has_rest(o)) {
     // The celerity is gamma v, and v = gamma v/sqrt(1 + (gamma v)^2).
     const double celerity = static_celerity(o).length();
     text = fmt::format("v = {:.5f} c", celerity / std::hypot(1.0, celerity));
   } else {
-    text = fmt::format("gamma v = {} (free fall)", steady_number(o.celerity.length()));
+    text = fmt::format("gamma v = {} (free fall)", five_digits(o.celerity.length()));
   }
   // With g the observed over the emitted frequency, 1 + z is 1/g.
   if (const auto range = frequency_range(o, own_sky(o.tetrad), !show.effects.lensing))
-    text += fmt::format("\n1+z = {} to {}", steady_number(1 / range->largest),
-                        steady_number(1 / range->least));
+    text += fmt::format("\n1+z = {} to {}", five_digits(1 / range->largest),
+                        five_digits(1 / range->least));
   return text;
 }
 
 std::string place_text(const ObserverState& o) {
   if (is_flat(o)) return "flat space";
-  return fmt::format("region {}\nr = {} M", region_name(o.region), steady_number(o.r));
+  return fmt::format("region {}\nr = {} M", region_name(o.region), five_digits(o.r));
 }
 
-std::string clock_of(const Show& show, const ObserverState& o) {
-  if (is_flat(o)) return fmt::format("tau = {} s", steady_number(o.proper_time));
-  std::string text = fmt::format("tau = {} M", steady_number(o.proper_time));
-  if (show.mass_solar)
-    text += fmt::format("\n{} s",
-                        steady_number(o.proper_time * *show.mass_solar * kSecondsPerSolarMass));
-  return text;
+std::string clock_of(const ObserverState& o) {
+  if (is_flat(o)) return fmt::format("tau = {} s", five_digits(o.proper_time));
+  return fmt::format("tau = {} M\n{} s", five_digits(o.proper_time),
+                     five_digits(o.proper_time * o.spacetime.seconds_per_m()));
 }
 
 }  // namespace
 
 BurnInText burn_in_text(const Show& show, const FrameState& state) {
-  const ObserverState& observer = seen_better(state).observer;
+  const ObserverState& observer = dominant_view(state).observer;
   return {fmt::format("frame {}\n{}", state.frame, clock_text(state.show_time_s)),
-          place_text(observer), clock_of(show, observer), motion_text(show, observer)};
+          place_text(observer), clock_of(observer), motion_text(show, observer)};
 }
 
 }  // namespace domefall

@@ -43,6 +43,59 @@ void add_in_row(double x0, double x1, double height, double* row) {
   }
 }
 
+// Says how much ink a row of pixels gets: part[k] of the pixel in column first + k.
+struct InkedRow {
+  int row, first, end;  // its columns from first to end - 1
+  std::span<const double> parts;
+  double opacity;
+
+  template <class Draw>
+  void each(const Draw& draw) const {
+    for (int x = first; x < end; ++x) {
+      const auto part = static_cast<float>(parts[static_cast<std::size_t>(x - first)] * opacity);
+      if (part != 0) draw(x, part);
+    }
+  }
+};
+
+template <class T>
+void draw_light(const InkedRow& inked, const WorkingRgb& ink, ImageRgb<T>& image) {
+  const float light[3] = {ink.r, ink.g, ink.b};
+  T* const pixels = image.row(inked.row);
+  inked.each([&](int x, float part) {
+    for (int c = 0; c < 3; ++c) {
+      T& value = pixels[3 * x + c];
+      value = static_cast<float>(value) * (1 - part) + light[c] * part;
+    }
+  });
+}
+
+// Draws over a row of the picture, and of its titles if it has them.
+template <class T>
+void draw_row(const InkedRow& inked, const WorkingRgb& ink, const OverlaidImages<T>& images) {
+  draw_light(inked, ink, *images.picture);
+  if (!images.titles) return;
+  draw_light(inked, ink, images.titles->light);
+  float* const alpha =
+      images.titles->alpha.data() + static_cast<std::ptrdiff_t>(inked.row) * images.picture->width;
+  inked.each([&](int x, float part) { alpha[x] = alpha[x] * (1 - part) + part; });
+}
+
+// Draws over those columns of each row that inside(row) returns.
+template <class Inside>
+void draw_within(const Coverage& coverage, const Ink& ink, const Inside& inside,
+                 const FrameRef& frame) {
+  coverage.for_each_row([&](int row, int first, std::span<const double> parts) {
+    const ColumnRange range = inside(row);
+    const int begin = std::max(first, range.first),
+              end = std::min(first + static_cast<int>(parts.size()), range.last + 1);
+    if (begin >= end) return;
+    const InkedRow inked{row, begin, end, parts.subspan(static_cast<std::size_t>(begin - first)),
+                         ink.opacity};
+    std::visit([&](const auto& images) { draw_row(inked, ink.light, images); }, frame.images);
+  });
+}
+
 }  // namespace
 
 void Coverage::add(const ImagePolygon& polygon) {
@@ -114,6 +167,21 @@ Coverage::Span Coverage::accumulate(int top, std::vector<double>& band) const {
     }
   }
   return span;
+}
+
+void draw_over(const Coverage& coverage, const Ink& ink, const Projection& projection,
+               const FrameRef& frame) {
+  draw_within(
+      coverage, ink, [&](int row) { return inside_columns(projection, row); }, frame);
+}
+
+void draw_anywhere(const Coverage& coverage, const Ink& ink, const FrameRef& frame) {
+  draw_within(
+      coverage, ink,
+      [&](int) {
+        return ColumnRange{0, frame.width - 1};
+      },
+      frame);
 }
 
 }  // namespace domefall

@@ -1,9 +1,13 @@
-// A Coverage says how much of each pixel lies within outlines, by exact areas.
+// What is drawn over a frame: a Coverage says how much of each pixel lies within outlines, by exact
+// areas, and Ink is the light that is drawn there.
 #pragma once
 
 #include <span>
+#include <variant>
 #include <vector>
 
+#include "pipeline/image/layer.h"
+#include "pipeline/sources/colour/colour_space.h"
 #include "projections/projection.h"
 
 namespace domefall {
@@ -70,5 +74,40 @@ class Coverage {
   int width_, height_;
   std::vector<std::vector<Edge>> edges_;  // for each band those that touch it
 };
+
+// What is drawn over: a picture, and its layer of titles or null.
+template <class T>
+struct OverlaidImages {
+  ImageRgb<T>* picture;
+  LayerImage<T>* titles = nullptr;
+};
+
+// A FrameRef refers to a frame of halves or of floats over which overlays are drawn.
+struct FrameRef {
+  int width, height;
+  std::variant<OverlaidImages<Imath::half>, OverlaidImages<float>> images;
+
+  // The constructors are implicit, so that either kind of frame can be passed as it is.
+  template <class T>
+  FrameRef(ImageRgb<T>& frame)
+      : width(frame.width), height(frame.height), images(OverlaidImages<T>{&frame}) {}
+  template <class T>
+  FrameRef(LayeredFrame<T>& frame) : FrameRef(frame.picture) {
+    std::get<OverlaidImages<T>>(images).titles = frame.find(Layer::kTitles);
+  }
+};
+
+// An Ink is light that replaces the light behind it.
+struct Ink {
+  WorkingRgb light;    // pixel values
+  double opacity = 1;  // 0 to 1
+};
+
+// Draws over a frame of the projection's size wherever the coverage says, but only where the projection shows anything.
+void draw_over(const Coverage& coverage, const Ink& ink, const Projection& projection,
+               const FrameRef& frame);
+
+// Draws over a frame everywhere, even outside a dome's circle.
+void draw_anywhere(const Coverage& coverage, const Ink& ink, const FrameRef& frame);
 
 }  // namespace domefall

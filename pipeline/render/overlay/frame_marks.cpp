@@ -1,13 +1,14 @@
 #include "pipeline/render/overlay/frame_marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "pipeline/render/overlay/ink.h"
+#include "pipeline/render/overlay/coverage.h"
 #include "pipeline/render/overlay/stroke.h"
-#include "pipeline/render/rays/view_circle.h"
-#include "pipeline/show/vantage.h"
+#include "pipeline/render/rays/view_tracer.h"
 
 namespace domefall {
 namespace {
@@ -24,12 +25,9 @@ class Marks {
         coverage_(frame.width, frame.height) {}
 
   const Projection& projection() const { return projection_; }
-  bool dome() const {
-    return std::holds_alternative<Domemaster>(projection_) ||
-           std::holds_alternative<Fisheye>(projection_);
-  }
+  bool dome() const { return traits_of(projection_).is_dome; }
 
-  void circle(const ViewCircle& circle) { add_circle(circle, width_, projection_, coverage_); }
+  void curve(const ViewCurve& curve) { add_curve(curve, width_, projection_, coverage_); }
 
   // Adds a box in the middle of the image that has this part of its width and height.
   void box(double part) {
@@ -56,10 +54,14 @@ class Marks {
         false, width_ * width_part, projection_, coverage_);
   }
 
-  // Adds a circle about the middle of a dome's image, at this distance in pixels from its edge.
+  // Adds the circle about the middle of a dome's image at this angle, or at this distance in pixels
+  // from its edge.
+  void circle(double angle) { curve(ViewCircle{V3d(0, 0, 1), std::cos(angle), std::sin(angle)}); }
   void circle_within(double pixels) {
-    const double angle = (columns(projection_) / 2.0 - pixels) * central_pixel_angle(projection_);
-    circle({V3d(0, 0, 1), std::cos(angle), std::sin(angle)});
+    const PixelPosition middle = origin_of(projection_);
+    const CameraDirection n =
+        direction_at(projection_, {middle.i + columns(projection_) / 2.0 - pixels, middle.j});
+    curve(ViewCircle{V3d(0, 0, 1), n.v.z, n.v.x});
   }
 
   void draw(const WorkingRgb& light, double opacity, const FrameRef& frame) const {
@@ -89,11 +91,8 @@ void add_grid(Marks& marks) {
 }
 
 void add_safe_area(Marks& marks) {
-  if (marks.dome()) {
-    const double pixels =
-        kSafeElevationDeg * kDegrees2Radians / central_pixel_angle(marks.projection());
-    return marks.circle_within(pixels);
-  }
+  if (marks.dome())
+    return marks.circle(farthest_angle(marks.projection()) - kSafeElevationDeg * kDegrees2Radians);
   marks.box(kSafeAction);
   marks.box(kSafeTitles);
 }
@@ -107,44 +106,32 @@ void add_sweet_spot(Marks& marks) {
   marks.way({-a, high}, {-a, low});
 }
 
-// Returns the colour of an overlay.  The colours are distinct, also for most people who see fewer
-// colours.
+// The colours of overlays (Rec.709), which are distinct also for most people who see fewer colours.
+constexpr std::pair<OverlayKind, std::array<double, 3>> kOverlayLights[]{
+    {OverlayKind::kGrid, {0.15, 0.2, 0.3}},     {OverlayKind::kRim, {1, 1, 1}},
+    {OverlayKind::kSafeArea, {0.1, 1, 0.2}},    {OverlayKind::kSweetSpot, {1, 0.8, 0.1}},
+    {OverlayKind::kSilhouette, {1, 0.15, 0.1}}, {OverlayKind::kEinsteinRing, {0.1, 0.6, 1}}};
+
 WorkingRgb light_of(OverlayKind overlay) {
-  const auto of_rec709 = [](double r, double g, double b) {
-    const V3d light = apply(working_from_rec709(), V3d(r, g, b));
-    return WorkingRgb{static_cast<float>(light.x), static_cast<float>(light.y),
-                      static_cast<float>(light.z)};
-  };
-  switch (overlay) {
-    case OverlayKind::kGrid:
-      return of_rec709(0.15, 0.2, 0.3);
-    case OverlayKind::kRim:
-      return of_rec709(1, 1, 1);
-    case OverlayKind::kSafeArea:
-      return of_rec709(0.1, 1, 0.2);
-    case OverlayKind::kSweetSpot:
-      return of_rec709(1, 0.8, 0.1);
-    case OverlayKind::kSilhouette:
-      return of_rec709(1, 0.15, 0.1);
-    case OverlayKind::kEinsteinRing:
-      return of_rec709(0.1, 0.6, 1);
-    case OverlayKind::kStarNames:
-    case OverlayKind::kBurnIn:
-      break;
+  for (const auto& [kind, rgb] : kOverlayLights) {
+    if (kind != overlay) continue;
+    const V3d light = apply(working_from_rec709(), V3d(rgb[0], rgb[1], rgb[2]));
+    return {static_cast<float>(light.x), static_cast<float>(light.y), static_cast<float>(light.z)};
   }
   return {1, 1, 1};
 }
 
 // Draws the silhouette or the Einstein rings.  Without lensing there is neither.
-void draw_circles(OverlayKind overlay, const Show& show, const FrameState& state, double opacity,
-                  const FrameRef& frame) {
+void draw_curves(OverlayKind overlay, const Show& show, const FrameState& state, double opacity,
+                 const FrameRef& frame) {
   if (!show.effects.lensing) return;
+  const bool rings = overlay == OverlayKind::kEinsteinRing;
+  const ViewTracer tracer(state, WantedSkies{{rings, rings, false}}, show.effects);
   Marks marks(state, frame);
-  const V3d celerity = vantage_of(state.observer, show.effects).celerity;
-  for (const ViewCircle& circle : overlay == OverlayKind::kSilhouette
-                                      ? silhouette_circles(state.observer, celerity)
-                                      : einstein_circles(state.observer, celerity))
-    marks.circle(circle);
+  if (rings)
+    for (const ViewCurve& ring : tracer.einstein_rings()) marks.curve(ring);
+  else
+    for (const SkyBorder& border : tracer.borders()) marks.curve(border.curve);
   marks.draw(light_of(overlay), opacity, frame);
 }
 
@@ -158,8 +145,8 @@ double mark_width(const Projection& projection) {
 void draw_marks(OverlayKind overlay, const Show& show, const FrameState& state,
                 const FrameRef& frame) {
   if (overlay == OverlayKind::kSilhouette || overlay == OverlayKind::kEinsteinRing) {
-    draw_circles(overlay, show, state, 1 - state.vanishing_part, frame);
-    if (state.vanishing) draw_circles(overlay, show, *state.vanishing, state.vanishing_part, frame);
+    draw_curves(overlay, show, state, 1 - state.vanishing_part, frame);
+    if (state.vanishing) draw_curves(overlay, show, *state.vanishing, state.vanishing_part, frame);
     return;
   }
   Marks marks(state, frame);

@@ -2,7 +2,7 @@
 // to the hole.
 #pragma once
 
-#include "pipeline/render/overlay/frame_ref.h"
+#include "pipeline/render/overlay/coverage.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 
-#include "pipeline/image/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/render/overlay/bent_text.h"
 #include "pipeline/render/overlay/burn_in_text.h"
+#include "pipeline/render/overlay/coverage.h"
 #include "pipeline/render/overlay/frame_marks.h"
-#include "pipeline/render/overlay/ink.h"
-#include "pipeline/render/overlay/seen_better.h"
-#include "pipeline/render/overlay/text_digest.h"
-#include "pipeline/render/rays/steady.h"
+#include "pipeline/render/rays/key_rounding.h"
 
 namespace domefall {
 namespace {
@@ -25,7 +23,7 @@ void draw_in_corner(const std::string& text, bool right, bool bottom, const Fram
   constexpr double kLetterPart = 1. / 88, kLeastLetter = 5.5, kGround = 0.6;
   const double letter = std::max(kLeastLetter, kLetterPart * std::min(frame.width, frame.height));
   const LetteredText letters =
-      lettering().letter(text, burn_in_style(right ? TextAlign::kRight : TextAlign::kLeft));
+      lettered(text, burn_in_style(right ? TextAlign::kRight : TextAlign::kLeft));
   const double w = letters.half_width * letter, h = letters.half_height * letter;
   const ImagePoint middle{right ? frame.width - w - letter : w + letter,
                           bottom ? frame.height - h - letter : h + letter};
@@ -57,7 +55,7 @@ std::string overlays_key(const Show& show, const FrameState& state) {
   add_rotation(digest, state.camera_from_audience);
   // A sample text stands for a font, whose outlines depend on the machine.
   const auto add_font = [&digest](const LetterStyle& style) {
-    add_outlines(digest, lettering().letter("Handgloves 0123456789", style));
+    add_outlines(digest, lettered("Handgloves 0123456789", style));
   };
   for (const OverlayKind overlay : show.overlays) {
     if (overlay == OverlayKind::kStarNames) add_font(label_style());
@@ -77,7 +75,7 @@ void draw_overlays(const Show& show, const FrameState& state, StarLabels& labels
     if (overlay == OverlayKind::kBurnIn)
       draw_burn_in(show, state, frame);
     else if (overlay == OverlayKind::kStarNames)
-      labels.draw(seen_better(state), frame);
+      labels.draw(dominant_view(state), frame);
     else
       draw_marks(overlay, show, state, frame);
   }

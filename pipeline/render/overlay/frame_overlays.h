@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "pipeline/render/overlay/frame_ref.h"
+#include "pipeline/render/overlay/coverage.h"
 #include "pipeline/render/overlay/star_labels.h"
 #include "pipeline/show/frame_state.h"
 
@@ -11,7 +11,7 @@ namespace domefall {
 
 // Returns a digest of everything that the overlays of a show change in a frame and that the frame's
 // own key does not hold.  This is which overlays there are, their texts, and the fonts.  The digest
-// is empty for a show without overlays.  Throws as lettering() and Lettering::letter where an
+// is empty for a show without overlays.  Throws as lettered() where an
 // overlay has text.
 std::string overlays_key(const Show& show, const FrameState& state);
 

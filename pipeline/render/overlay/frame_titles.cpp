@@ -4,12 +4,10 @@
 #include <mutex>
 #include <tuple>
 
-#include "pipeline/image/digest.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/render/overlay/bent_text.h"
-#include "pipeline/render/overlay/ink.h"
-#include "pipeline/render/overlay/text_digest.h"
-#include "pipeline/render/overlay/text_surface.h"
-#include "pipeline/render/rays/steady.h"
+#include "pipeline/render/overlay/coverage.h"
+#include "pipeline/render/rays/key_rounding.h"
 
 namespace domefall {
 
@@ -36,7 +34,7 @@ const LetteredText& title_letters(const Title& title) {
   const auto key = std::tuple(title.text, title.style.font, title.style.align);
   const auto found = known.find(key);
   if (found != known.end()) return found->second;
-  return known.emplace(key, lettering().letter(title.text, title.style)).first->second;
+  return known.emplace(key, lettered(title.text, title.style)).first->second;
 }
 
 std::string titles_key(const Show& show, const FrameState& state) {
@@ -46,9 +44,9 @@ std::string titles_key(const Show& show, const FrameState& state) {
   add_rotation(digest, state.camera_from_audience);
   for (const auto& [title, opacity] : seen) {
     add_outlines(digest, title_letters(*title));
-    // The last bits of angles differ between processors, and steady() rounds them off.
+    // The last bits of angles differ between processors, and rounded_for_key() rounds them off.
     for (const double v : {title->azimuth, title->elevation, title->height, opacity})
-      digest.add(steady(v));
+      digest.add(rounded_for_key(v));
     for (const float v : {title->light.r, title->light.g, title->light.b})
       digest.add(static_cast<double>(v));
   }

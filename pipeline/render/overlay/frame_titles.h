@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/lettering/lettering.h"
-#include "pipeline/render/overlay/frame_ref.h"
+#include "pipeline/base/lettering.h"
+#include "pipeline/render/overlay/coverage.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
@@ -20,7 +20,7 @@ struct SeenTitle {
 std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state);
 
 // Returns the outlines of a title, which are made once for each text and kept.  It may be called
-// from any thread.  Throws as lettering() and Lettering::letter.
+// from any thread.  Throws as lettered().
 const LetteredText& title_letters(const Title& title);
 
 // Returns a digest of everything that the titles of a frame change in it.  It includes their

@@ -7,16 +7,17 @@
 #include <tuple>
 #include <utility>
 
-#include "pipeline/lettering/lettering.h"
+#include "pipeline/base/lettering.h"
 #include "pipeline/render/overlay/bent_text.h"
+#include "pipeline/render/overlay/coverage.h"
 #include "pipeline/render/overlay/frame_marks.h"
-#include "pipeline/render/overlay/ink.h"
 #include "pipeline/render/overlay/stroke.h"
 #include "pipeline/render/scene/body_sight.h"
+#include "pipeline/render/scene/seen_magnitude.h"
 #include "pipeline/render/scene/star_light.h"
 #include "pipeline/render/scene/star_sight.h"
-#include "pipeline/show/stars_section.h"
-#include "pipeline/sky/catalogue/read_star_catalogue.h"
+#include "pipeline/show/show.h"
+#include "pipeline/sources/stars/star_catalogue.h"
 
 namespace domefall {
 namespace {
@@ -27,24 +28,14 @@ constexpr double kLabelPart = 1. / 120, kLeastLabel = 7;
 // heights of a capital.
 constexpr double kRing = 0.8, kGap = 1.2;
 
-// TakenPlaces know where there are names already, as discs along them.
-class TakenPlaces {
- public:
-  explicit TakenPlaces(double radius) : radius_(radius) {}
-
-  // Takes all these places if none of them is taken yet.  Says whether it did.
-  bool take(const std::vector<ImagePoint>& places) {
-    for (const ImagePoint& p : places)
-      for (const ImagePoint& q : taken_)
-        if (std::hypot(p.x - q.x, p.y - q.y) < 2 * radius_) return false;
-    taken_.insert(taken_.end(), places.begin(), places.end());
-    return true;
-  }
-
- private:
-  double radius_;
-  std::vector<ImagePoint> taken_;
-};
+// Takes all these places, as discs of a radius, if none of them is taken yet.  Says whether it did.
+bool take(const std::vector<ImagePoint>& places, double radius, std::vector<ImagePoint>& taken) {
+  for (const ImagePoint& p : places)
+    for (const ImagePoint& q : taken)
+      if (std::hypot(p.x - q.x, p.y - q.y) < 2 * radius) return false;
+  taken.insert(taken.end(), places.begin(), places.end());
+  return true;
+}
 
 // Returns places in the frame from a star's image to the end of its name, or nothing if the name is
 // not wholly in the frame.
@@ -72,7 +63,8 @@ void append_bodies(const Show& show, const FrameState& state, std::vector<NamedI
     for (int order = 0; order < 2; ++order)
       if (const auto image = sight.image(body, order)) {
         const BodySight::Seen seen = sight.seen(image->at);
-        const double magnitude = body.magnitude - 2.5 * std::log10(seen.brightening);
+        const double magnitude = seen_magnitude(show.effects, body.magnitude, body.temperature,
+                                                seen.brightening, seen.frequency_ratio);
         if (magnitude <= kFaintestNamedImage)
           found.push_back(named_image(body.name, order, seen.direction, magnitude));
       }
@@ -96,7 +88,7 @@ const std::vector<StarLabels::NamedStarOfSky>& StarLabels::stars_of(SkyRegion sk
   for (const NamedStar& name : catalogue.names) names.emplace(key(name.direction), name.name);
   for (const Star& star : catalogue.stars)
     if (const auto name = names.find(key(star.direction)); name != names.end())
-      named->push_back({name->second, star.direction, star.v_magnitude});
+      named->push_back({name->second, star.direction, star.v_magnitude, star.temperature});
   return *named;
 }
 
@@ -112,7 +104,8 @@ std::vector<NamedImage> StarLabels::images(const FrameState& state) {
       if (!(drawn > 0)) break;  // the stars that follow are fainter
       for (int order = 0; order < std::min(finder.orders(), 2); ++order) {
         const StarSight::Image image = finder.image(sky, star.direction, order);
-        const double magnitude = star.magnitude - 2.5 * std::log10(drawn * image.brightening);
+        const double magnitude = seen_magnitude(show_.effects, star.magnitude, star.temperature,
+                                                drawn * image.brightening, image.frequency_ratio);
         if (!(magnitude <= kFaintestNamedImage)) continue;
         found.push_back(named_image(star.name, order, image.direction, magnitude));
       }
@@ -128,18 +121,18 @@ void StarLabels::draw(const FrameState& state, const FrameRef& frame) {
   const Projection& projection = state.projection;
   const double letter =
       std::max(kLeastLabel, kLabelPart * std::min(frame.width, frame.height));  // pixels
-  TakenPlaces taken(kRing * letter);
+  std::vector<ImagePoint> taken;  // by names, as discs along them
   Coverage primary(frame.width, frame.height), secondary(frame.width, frame.height);
   for (const NamedImage& image : images(state)) {
     const auto pixel = pixel_of(projection, image.direction);
     if (!pixel || !is_in_image(projection, *pixel)) continue;
-    const LetteredText text = lettering().letter(image.name, label_style());
+    const LetteredText text = lettered(image.name, label_style());
     const V3d place = apply_transposed(state.camera_from_audience, image.direction.v);
     const TextSurface surface(state.camera_from_audience, std::atan2(place.x, place.y),
                               std::asin(std::clamp(place.z, -1.0, 1.0)),
                               letter * pixel_angle(projection, *pixel));
     const auto along = places_of_label(surface, kGap + 2 * text.half_width, projection);
-    if (!along || !taken.take(*along)) continue;
+    if (!along || !take(*along, kRing * letter, taken)) continue;
     Coverage& coverage = image.secondary ? secondary : primary;
     add_text(text, surface, {kGap + text.half_width, 0}, projection, coverage);
     add_curve(

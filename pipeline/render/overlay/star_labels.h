@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "pipeline/render/overlay/coverage.h"
-#include "pipeline/render/overlay/frame_ref.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
@@ -20,8 +19,8 @@ struct NamedImage {
   std::string name;        // with a prime if it is the secondary image
   bool secondary = false;  // on the opposite side of the hole
   CameraDirection direction;
-  // This is the magnitude that is seen under the effects that the show keeps.  It includes the
-  // ratio of the frame's gain of stars to the default gain of their law.
+  // This is the V that is seen under the effects that the show keeps (seen_magnitude).  It includes
+  // the ratio of the frame's gain of stars to the default gain of their law.
   double magnitude = 0;
 };
 
@@ -45,7 +44,7 @@ class StarLabels {
   struct NamedStarOfSky {
     std::string name;
     SkyDirection direction;
-    double magnitude;
+    double magnitude, temperature;
   };
   const std::vector<NamedStarOfSky>& stars_of(SkyRegion sky);
 

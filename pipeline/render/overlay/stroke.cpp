@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/render/overlay/seam.h"
-
 namespace domefall {
 namespace {
 
@@ -82,7 +80,7 @@ void add_curve(const std::function<V3d(double)>& direction, bool closed, double 
   bool whole = true;
   for (int k = 0; k < pieces + (closed ? 0 : 1); ++k) {
     const CameraDirection n{direction(static_cast<double>(k) / pieces)};
-    const bool seen = n.v.z > kStrokeBehind || std::holds_alternative<Equirectangular>(projection);
+    const bool seen = n.v.z > kStrokeBehind || traits_of(projection).has_seam;
     const auto pixel = seen ? pixel_of(projection, n) : std::nullopt;
     if (pixel) {
       run.push_back(image_point(*pixel));
@@ -95,8 +93,19 @@ void add_curve(const std::function<V3d(double)>& direction, bool closed, double 
   add_run(run, closed && whole, width, projection, coverage);
 }
 
-void add_circle(const ViewCircle& circle, double width, const Projection& projection,
-                Coverage& coverage) {
+void add_curve(const ViewCurve& curve, double width, const Projection& projection,
+               Coverage& coverage) {
+  if (const auto* corners = std::get_if<std::vector<V3d>>(&curve)) {
+    const auto corner = [&](double part) {
+      const double at = part * static_cast<double>(corners->size()), whole = std::floor(at);
+      const auto k = static_cast<std::size_t>(whole) % corners->size();
+      return (*corners)[k] + ((*corners)[(k + 1) % corners->size()] - (*corners)[k]) * (at - whole);
+    };
+    add_curve([&](double part) { return corner(part).normalized(); }, true, width, projection,
+              coverage);
+    return;
+  }
+  const auto& circle = std::get<ViewCircle>(curve);
   // e1 and e2 are unit vectors at right angles to the axis and to each other.
   const V3d e1 =
       circle.axis.cross(std::abs(circle.axis.z) < 0.7 ? V3d(0, 0, 1) : V3d(1, 0, 0)).normalized();
@@ -107,6 +116,39 @@ void add_circle(const ViewCircle& circle, double width, const Projection& projec
         return circle.axis * circle.cosine + (e1 * std::cos(t) + e2 * std::sin(t)) * circle.sine;
       },
       true, width, projection, coverage);
+}
+
+void unwind(const Projection& projection, std::vector<ImagePoint>& points) {
+  if (!traits_of(projection).has_seam) return;
+  const double width = columns(projection);
+  for (std::size_t k = 1; k < points.size(); ++k)
+    points[k].x -= width * std::round((points[k].x - points[k - 1].x) / width);
+}
+
+double winding(const Projection& projection, const std::vector<ImagePoint>& points) {
+  if (points.empty() || !traits_of(projection).has_seam) return 0;
+  const double width = columns(projection);
+  return width * std::round((points.back().x - points.front().x) / width);
+}
+
+void add_unwound(ImagePolygon polygon, const Projection& projection, Coverage& coverage) {
+  unwind(projection, polygon);
+  if (winding(projection, polygon) != 0) {
+    double sum = 0;
+    for (const ImagePoint& p : polygon) sum += p.y;
+    const double height = rows(projection);
+    const double pole = sum < height / 2 * static_cast<double>(polygon.size()) ? 0 : height;
+    // The line goes on to its first point a whole width away, from there to the edge of the image
+    // at the pole, and back along the edge.
+    const ImagePoint first = polygon.front();
+    const double end = first.x + winding(projection, polygon);
+    polygon.insert(polygon.end(), {{end, first.y}, {end, pole}, {first.x, pole}});
+  }
+  each_copy(projection, [&](double shift) {
+    ImagePolygon copy = polygon;
+    for (ImagePoint& p : copy) p.x += shift;
+    coverage.add(copy);
+  });
 }
 
 }  // namespace domefall

@@ -1,6 +1,6 @@
 #include "pipeline/render/rays/footprint_batch.h"
 
-#include "pipeline/simd/dispatch.h"
+#include "pipeline/base/simd/dispatch.h"
 
 namespace domefall {
 namespace {
@@ -14,18 +14,17 @@ namespace {
     const double x = b.along_x[k], y = b.along_y[k], z = b.along_z[k];
     // The other axis of the ellipse lies along the vector product of `along` and the direction.
     const double across_x = y * sz - z * sy, across_y = z * sx - x * sz, across_z = x * sy - y * sx;
-    const double r = b.radial_scale[k], t = b.tangential_scale[k];
-    // The ellipse is longer along the azimuth where the radial scale is the larger one.
-    const bool radial = r >= t;
-    const double wide = angle[k] * (radial ? r : t), narrow = angle[k] * (radial ? t : r);
+    const double s = b.scale_along[k], t = b.scale_across[k];
+    const bool longer = s >= t;
+    const double wide = angle[k] * (longer ? s : t), narrow = angle[k] * (longer ? t : s);
     out.x[k] = static_cast<float>(sx);
     out.y[k] = static_cast<float>(sy);
     out.z[k] = static_cast<float>(sz);
     out.wide[k] = static_cast<float>(wide);
     out.narrow[k] = static_cast<float>(narrow);
-    out.ax[k] = static_cast<float>((radial ? x : across_x) * wide);
-    out.ay[k] = static_cast<float>((radial ? y : across_y) * wide);
-    out.az[k] = static_cast<float>((radial ? z : across_z) * wide);
+    out.ax[k] = static_cast<float>((longer ? x : across_x) * wide);
+    out.ay[k] = static_cast<float>((longer ? y : across_y) * wide);
+    out.az[k] = static_cast<float>((longer ? z : across_z) * wide);
   }
 }
 Dispatched<set_loop> set;

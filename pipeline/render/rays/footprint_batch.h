@@ -15,7 +15,7 @@ struct FootprintColumns {
 };
 
 // Sets the footprints of `count` rays.  Ray k stands for the angle angle[k] (radians) in the view.
-// The axes of its footprint are this angle times the ray's radial and tangential scales.
+// The axes of its footprint are this angle times the ray's two scales.
 void set_footprints(const ViewRayBatch& batch, const double* angle, int count,
                     const FootprintColumns& footprints);
 

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "pipeline/optics/silhouette.h"
-#include "pipeline/show/vantage.h"
+#include "pipeline/light/silhouette.h"
 
 namespace domefall {
 namespace {
@@ -36,25 +35,16 @@ struct Plane {
 
 }  // namespace
 
-V3d static_celerity(const ObserverState& o) {
-  if (is_flat(o)) return o.celerity;
-  // The reference frame falls at -s or rises at s, so dr/dtau = c_R -+ s gamma.  For the static
-  // observer dr is the length dr/sqrt(1 - 2/r).
-  const double s = std::sqrt(2 / o.r), gamma = std::sqrt(1 + o.celerity.length2());
-  const double rate = o.celerity.x + (is_outgoing(o.tetrad) ? s * gamma : -s * gamma);
-  return {rate / std::sqrt((o.r - 2) / o.r), o.celerity.y, o.celerity.z};
-}
-
 std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky, bool straight) {
   if (!seen_skies(o)[sky]) return std::nullopt;
   const bool own = sky == own_sky(o.tetrad);
   if (straight || is_flat(o)) {
     // The extreme Doppler factors are gamma -+ |c|, each of which is the inverse of the other.
     const double speed = static_celerity(o).length(), gamma = std::hypot(1.0, speed);
-    const double hole = is_flat(o) ? 1 : gravitational_ratio(o.r);
+    const double hole = o.spacetime.gravitational_ratio(o.r);
     return ShiftRange{hole / (gamma + speed), hole * (gamma + speed)};
   }
-  const double s = std::sqrt(2 / o.r);
+  const double s = o.spacetime.free_fall_speed(o.r);
   const V3d c = is_outgoing(o.tetrad) ? in_rain(o.celerity, s) : o.celerity;
   const Plane plane{std::sqrt(1 + c.length2()), c.x, std::hypot(c.y, c.z), s};
   // The own sky of the tetrad extends from R to the silhouette, and the other one from its edge to

@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "trajectories/sky_region.h"
+#include "pipeline/spacetime/regions.h"
+#include "trajectories/observer_state.h"
 
 namespace domefall {
 
@@ -29,9 +30,5 @@ struct ShiftRange {
 // approaches 0.
 std::optional<ShiftRange> frequency_range(const ObserverState& observer, SkyRegion sky,
                                           bool straight);
-
-// Returns gamma v against the static observer of the same r > 2, or against flat space.  The
-// components are along R, Theta and Phi of the state's tetrad, and R points to growing r.
-V3d static_celerity(const ObserverState& observer);
 
 }  // namespace domefall

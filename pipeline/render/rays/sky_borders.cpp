@@ -10,42 +10,76 @@ namespace {
 // A circle of a smaller radius, in pixels, is not resolved.
 constexpr double kLeastRadius = 4;
 
-}  // namespace
-
-SkyBorders::SkyBorders(const FrameState& state, const HoleOptics& optics, const Vantage& vantage) {
-  for (const SkyRegion sky : optics.skies()) {
-    const SkyEdge* edge = optics.edge_of(sky);
-    if (edge == nullptr) continue;
-    const ViewCircle c = view_circle(edge->half, state.observer, vantage.celerity);
-    // If the sky lies at smaller alpha, the reversed axis and cosine describe the same circle with
-    // the sky where n.axis < cosine.
-    const double sign = edge->sign;
-    circles_.push_back({c.axis * sign, sign * c.cosine, c.sine});
-    usable_ = usable_ && c.sine > kLeastRadius * central_pixel_angle(state.projection);
-  }
-  usable_ = usable_ && !circles_.empty();
-  if (usable_) find_box(state.projection);
+// Returns the curve with what it encloses on its other side.
+ViewCurve reversed(const ViewCurve& curve) {
+  if (const auto* c = std::get_if<ViewCircle>(&curve))
+    return ViewCircle{-c->axis, -c->cosine, c->sine};
+  std::vector<V3d> corners = std::get<std::vector<V3d>>(curve);
+  std::reverse(corners.begin(), corners.end());
+  return corners;
 }
 
-// The components of two directions along an axis differ by no more than the angle between them.
+// Returns the distance of a direction from a polygon, as a chord.  It is positive on the left side.
+double chord_beyond(const std::vector<V3d>& corners, const V3d& n) {
+  double least = HUGE_VAL, side = 1;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const V3d &from = corners[k], way = corners[(k + 1) % corners.size()] - from;
+    const V3d off = n - from - way * std::clamp((n - from).dot(way) / way.length2(), 0.0, 1.0);
+    if (off.length2() >= least) continue;
+    least = off.length2();
+    side = from.cross(way).dot(n) < 0 ? -1 : 1;
+  }
+  return side * std::sqrt(least);
+}
+
+// Returns how far a direction is beyond the border of a sky, at most.  The components of two
+// directions along an axis differ by no more than the angle between them, and so do chords.
+double beyond(const ViewCurve& curve, const V3d& n) {
+  const auto* c = std::get_if<ViewCircle>(&curve);
+  return c ? n.dot(c->axis) - c->cosine : chord_beyond(std::get<std::vector<V3d>>(curve), n);
+}
+
+// Returns the factor from that to an angle, next to the border.  A small step away from the axis of
+// a circle changes the cosine by the sine times the step.
+double angle_over_beyond(const ViewCurve& curve) {
+  const auto* c = std::get_if<ViewCircle>(&curve);
+  return c ? 1 / c->sine : 1;
+}
+
+// Returns the radius of a curve, or half of the largest distance of a polygon's corners from one.
+double radius_of(const ViewCurve& curve) {
+  if (const auto* c = std::get_if<ViewCircle>(&curve)) return c->sine;
+  const auto& corners = std::get<std::vector<V3d>>(curve);
+  double farthest = 0;
+  for (const V3d& corner : corners) farthest = std::max(farthest, (corner - corners[0]).length());
+  return farthest / 2;
+}
+
+}  // namespace
+
+SkyBorders::SkyBorders(const ViewTracer& tracer, const Projection& projection) {
+  for (const SkyBorder& border : tracer.borders()) {
+    curves_.push_back(border.sky_within ? reversed(border.curve) : border.curve);
+    usable_ = usable_ && radius_of(border.curve) > kLeastRadius * largest_pixel_angle(projection);
+  }
+  usable_ = usable_ && !curves_.empty();
+  if (usable_) find_box(projection);
+}
+
 SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reach) const {
   bool dark = true;
-  for (const ViewCircle& c : circles_) {
-    const double beyond = n.v.dot(c.axis) - c.cosine;
-    if (beyond < -reach) return Sight::kSky;
-    dark = dark && beyond > reach;
+  for (const ViewCurve& curve : curves_) {
+    const double off = beyond(curve, n.v);
+    if (off < -reach) return Sight::kSky;
+    dark = dark && off > reach;
   }
   return dark ? Sight::kNoSky : Sight::kBoth;
 }
 
 double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) const {
-  // A small step away from the axis changes the cosine by the sine times the step, so `beyond` is
-  // the distance of the pixel's middle from the border, in pixels.
   double part = 0;
-  for (const ViewCircle& c : circles_) {
-    const double beyond = (n.v.dot(c.axis) - c.cosine) / (c.sine * pixel_angle);
-    part += std::clamp(0.5 - beyond, 0.0, 1.0);
-  }
+  for (const ViewCurve& curve : curves_)
+    part += std::clamp(0.5 - beyond(curve, n.v) * angle_over_beyond(curve) / pixel_angle, 0.0, 1.0);
   return std::min(part, 1.0);
 }
 
@@ -55,10 +89,12 @@ void SkyBorders::find_box(const Projection& projection) {
   constexpr int kPlaces = 96, kMargin = 3;
   const int width = columns(projection), height = rows(projection);
   box_ = PixelBox{0, width - 1, 0, height - 1};
-  // A rim that crosses the seam of a whole sphere, or goes around a pole, is no closed curve in the
-  // image.
-  if (std::holds_alternative<Equirectangular>(projection)) return;
-  const ViewCircle& c = circles_.front();
+  // On an image of the whole sphere that is no dome, a rim that crosses its edge, or goes around a
+  // pole, is no closed curve.
+  if (has_zenith(projection) && !traits_of(projection).is_dome) return;
+  const auto* circle = std::get_if<ViewCircle>(&curves_.front());
+  if (!circle) return;
+  const ViewCircle& c = *circle;
   // If the rim goes around -Z, the one direction without an image, what the rim encloses lies
   // outside its image.
   if (c.cosine < 0 || -c.axis.z > c.cosine - 0.05) return;

@@ -4,10 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/optics/hole_optics.h"
-#include "pipeline/render/rays/view_circle.h"
-#include "pipeline/show/frame_state.h"
-#include "pipeline/show/vantage.h"
+#include "pipeline/render/rays/view_tracer.h"
 #include "projections/projection.h"
 
 namespace domefall {
@@ -17,12 +14,11 @@ struct PixelBox {
   int first_column, last_column, first_row, last_row;
 };
 
-// SkyBorders holds the borders of the skies as circles in the view.  In the tetrad they are circles
-// about the line through the hole, and a boost turns circles into circles.
+// SkyBorders holds the borders of the skies as curves in the view.
 class SkyBorders {
  public:
   // Finds the borders of a lensed view.
-  SkyBorders(const FrameState& state, const HoleOptics& optics, const Vantage& vantage);
+  SkyBorders(const ViewTracer& tracer, const Projection& projection);
 
   // Says whether there is a border, and whether all are so large that no pixel holds a whole one.
   bool usable() const { return usable_; }
@@ -41,7 +37,8 @@ class SkyBorders {
  private:
   void find_box(const Projection& projection);
 
-  std::vector<ViewCircle> circles_;  // the sky of each lies where n.axis < cosine
+  // The sky of each lies where n.axis < cosine, or outside the polygon.
+  std::vector<ViewCurve> curves_;
   bool usable_ = true;
   std::optional<PixelBox> box_;
 };

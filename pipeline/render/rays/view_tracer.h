@@ -1,111 +1,76 @@
-// Follows view rays from the camera back to the sky: through the axes of the camera, aberration,
-// lensing by the hole, and redshift.  This is the inner loop of Domefall.
+// Follows view rays from the camera back to the sky: through the axes of the camera, aberration and
+// a lens.  This is the inner loop of Domefall.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <vector>
 
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/hole_optics.h"
-#include "pipeline/render/rays/amplification.h"
+#include "pipeline/light/aberration.h"
+#include "pipeline/light/lens_store.h"
 #include "pipeline/show/frame_state.h"
-#include "pipeline/show/vantage.h"
+#include "pipeline/show/viewer.h"
 #include "projections/projection.h"
-#include "trajectories/sky_region.h"
 
 namespace domefall {
 
-// A ViewRay describes the light that reaches the observer from one direction.
-struct ViewRay {
-  SkyRegion sky = SkyRegion::kIV;  // where the light started
-  // This is true if that sky has a table.  Otherwise only to_edge is set of all that follows.
-  bool known = false;
-  V3d sky_direction;           // equatorial J2000
-  double frequency_ratio = 1;  // observed / emitted; 1 for the singularity, which has no redshift
-  // The scales are angles on the sky per angle in the view, along the direction of the hole and
-  // across it.
-  double radial_scale = 0, tangential_scale = 0;
-  // These two are set for the singularity's light if its emission times are tabulated.
-  // emission_time is the time t of the emission (M), counted from the observer's v or u as in
-  // EmissionTimeTable.  time_scale is its derivative by the angle in the view.
-  double emission_time = 0, time_scale = 0;
-  RayBundle bundle;  // for skies I and III
-  // The angle in the view to the nearest edge of a sky (radians) is right to first order in it, and
-  // infinite without an edge.
-  double to_edge = HUGE_VAL;
+// A FrameRayBatch holds directions of view in the frame of a lens.
+struct FrameRayBatch : DirectionBatch {
+  alignas(64) ViewRayBatch::Column<double> scale;      // angles in that frame per angle in the view
+  alignas(64) ViewRayBatch::Column<double> frequency;  // as it is measured, over that in the frame
 };
 
-// A ViewRayBatch holds the same quantities for many rays, column by column.
-struct ViewRayBatch {
-  static constexpr int kSize = 128;
-  template <class T>
-  using Column = std::array<T, kSize>;
-  alignas(64) Column<double> sky_x, sky_y, sky_z;
-  // The azimuth grows along this unit vector on the sky, which is at right angles to the direction
-  // there.  It is 0 for straight light, whose footprints are round.
-  alignas(64) Column<double> along_x, along_y, along_z;
-  alignas(64) Column<double> frequency_ratio, radial_scale, tangential_scale, to_edge;
-  alignas(64) Column<double> emission_time, time_scale;  // only where those times are tabulated
-  Column<SkyRegion> sky;
+// Returns the lens of an observer under the effects that a show keeps, with the tables of `store`.
+std::shared_ptr<const Lens> lens_of(const ObserverState& observer, const WantedSkies& wanted,
+                                    const Effects& effects, LensStore& store);
+inline std::shared_ptr<const Lens> lens_of(const ObserverState& observer, const WantedSkies& wanted,
+                                           const Effects& effects) {
+  LensStore store;
+  return lens_of(observer, wanted, effects, store);
+}
 
-  V3d sky_direction(int k) const { return {sky_x[k], sky_y[k], sky_z[k]}; }
-  V3d along(int k) const { return {along_x[k], along_y[k], along_z[k]}; }
-};
-
-// A FrameRayBatch holds directions of view in the frame in which the paths of light are known.  It
-// is the frame of the reference tetrad or, where light goes straight near a hole, that of the
-// observer at rest.
-struct FrameRayBatch {
-  template <class T>
-  using Column = ViewRayBatch::Column<T>;
-  alignas(64) Column<double> x, y, z;    // unit vectors along R, Theta, Phi
-  alignas(64) Column<double> scale;      // angles in that frame per angle in the view
-  alignas(64) Column<double> frequency;  // as the observer measures it, over that in the frame
-};
+// Brings an image from the frame of a lens to that of the reference tetrad.
+SkyImage out_of_lens(const Lens& lens, const SkyImage& image);
 
 class ViewTracer {
  public:
-  // The optics must outlive the tracer.  Without lensing they are not used: light then goes
-  // straight in the frame of the observer at rest, which exists for r > 2.
-  ViewTracer(const FrameState& state, const HoleOptics& optics, const Effects& effects = {});
+  ViewTracer(const FrameState& state, std::shared_ptr<const Lens> lens, const Effects& effects);
+  ViewTracer(const FrameState& state, const WantedSkies& wanted, const Effects& effects = {})
+      : ViewTracer(state, lens_of(state.observer, wanted, effects), effects) {}
 
-  // Traces one direction step by step with the functions of the C library.  The tests hold the
-  // batch against it.
+  // Traces one direction (Lens::ray).
   ViewRay trace(const CameraDirection& n) const;
 
-  // Traces count <= ViewRayBatch::kSize directions by SIMD code.  The columns `sky` and `to_edge`
-  // are always set, and the others where the sky has a table.  The measured difference from the
-  // tracing of one direction is at most 1e-15 radians on the sky and a relative 1e-14, because
-  // vector_math.h rounds differently from the C library.
+  // Traces count <= ViewRayBatch::kSize directions by SIMD code (Lens::rays).
   void trace(const CameraDirection* n, int count, ViewRayBatch& batch) const;
 
-  // Brings directions into the frame of a FrameRayBatch and traces them no further.  This serves
-  // what is nearer than the skies.
+  // Brings directions into the frame of the lens and traces them no further.  This serves what is
+  // nearer than the skies.
   void into_frame(const CameraDirection* n, int count, FrameRayBatch& batch) const;
 
+  // Return the curves of the lens, which works in the reference tetrad, as the camera sees them.
+  std::vector<SkyBorder> borders() const;
+  std::vector<ViewCurve> einstein_rings() const;
+
   // Says whether light near the hole goes straight, which a show may ask for.
-  bool goes_straight() const { return to_rest_.has_value(); }
+  bool goes_straight() const { return to_lens_.has_value(); }
 
   // Returns the observers for whom the frame is drawn.
-  const Vantage& vantage() const { return vantage_; }
+  const Viewer& viewer() const { return viewer_; }
+  const std::shared_ptr<const Lens>& lens() const { return lens_; }
 
  private:
-  ViewRay straight_ray(const CameraDirection& n) const;
-  ViewRay lensed_ray(const CameraDirection& n) const;
-  void lensed_rays(const CameraDirection* n, int count, ViewRayBatch& batch) const;
-  void straight_rays(const CameraDirection* n, int count, ViewRayBatch& batch) const;
+  ViewCurve seen(const ViewCurve& curve) const;
   // Returns the frequency of light from n for the observer who measures it, over that for the
   // observer whose directions are drawn.
   double measured_ratio(const CameraDirection& n) const;
 
-  M33d tetrad_from_camera_, sky_from_tetrad_;
-  Vantage vantage_;
-  const HoleOptics& optics_;
-  bool flat_, outgoing_;
-  SkyRegion own_sky_;                      // of the tetrad
-  double s_, one_minus_s_;                 // s = sqrt(2/r); 1 - s = (r - 2)/(r (1 + s))
-  std::optional<Aberration> to_measured_;  // to Vantage::measured, if there is one
-  std::optional<Aberration> to_rest_;      // from the tetrad, if light goes straight near a hole
-  double gravitational_ratio_ = 1;
+  M33d tetrad_from_camera_;
+  Viewer viewer_;
+  std::shared_ptr<const Lens> lens_;
+  Aberration to_tetrad_;
+  std::optional<Aberration> to_measured_;  // to Viewer::measured, if there is one
+  std::optional<Aberration> to_lens_;      // from the tetrad, if the lens has another frame
 };
 
 }  // namespace domefall

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/sphere_image.h"
+#include "pipeline/light/aberration.h"
+#include "pipeline/light/sphere_image.h"
+#include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/scene/star_light.h"
 
 namespace domefall {
@@ -23,7 +24,8 @@ bool is_outside(const BodyImage& image, double radius) {
 BodySight::BodySight(const FrameState& state, const Effects& effects, double least_radius)
     : effects_(effects),
       observer_(state.observer),
-      vantage_(vantage_of(state.observer, effects)),
+      viewer_(viewer_of(state.observer, effects)),
+      lens_(lens_of(observer_, WantedSkies{{false, false, false}}, effects)),
       least_radius_(least_radius) {}
 
 bool BodySight::sees() const { return effects_.lensing && sees_bodies(observer_); }
@@ -42,15 +44,19 @@ double BodySight::radius_of(const Body& body) const {
 }
 
 std::optional<BodyImage> BodySight::traced(const Body& body, int order) const {
-  const PlaceView view{observer_.r, is_outgoing(observer_.tetrad), false};
-  return image_of_body(view, observer_.null_time, motion_of(body, observer_.sky_from_tetrad), order,
-                       radius_of(body));
+  return lens_->body_image(observer_.null_time,
+                           motion_of(observer_.spacetime, body, observer_.sky_from_tetrad), order,
+                           radius_of(body));
 }
 
 int BodySight::first_order(const Body& body) const {
-  const auto direct = traced(body, 0);
-  if (!direct || is_outside(*direct, radius_of(body))) return 0;
+  if (!is_too_near(body)) return 0;
   return body.radius > 0 ? kMostOrders : 1;
+}
+
+bool BodySight::is_too_near(const Body& body) const {
+  const auto direct = traced(body, 0);
+  return direct && !is_outside(*direct, radius_of(body));
 }
 
 std::optional<BodySight::Image> BodySight::image(const Body& body, int order) const {
@@ -68,7 +74,7 @@ std::vector<SkyImage> BodySight::pieces(const Body& body, const Image& image, do
   constexpr double kSpacing = 1.5;
   const double radius = radius_of(body), whole = radius / kBodyMagnitudeDistance;
   const auto spacing = [&](const V3d& direction) {
-    return kSpacing * sigma * to_observer(vantage_.celerity, direction).frequency_ratio;
+    return kSpacing * sigma * to_observer(viewer_.celerity, direction).frequency_ratio;
   };
   if (effects_.amplification == Amplification::kNone ||
       size_of_sphere(image.traced, radius) <= spacing(image.at.direction.v))
@@ -80,9 +86,9 @@ std::vector<SkyImage> BodySight::pieces(const Body& body, const Image& image, do
 }
 
 BodySight::Seen BodySight::seen(const SkyImage& image) const {
-  const AberratedLight at = to_observer(vantage_.celerity, image.direction.v);
+  const AberratedLight at = to_observer(viewer_.celerity, image.direction.v);
   double g = image.frequency_ratio * at.frequency_ratio;
-  if (vantage_.measured) g *= to_observer(*vantage_.measured, at.direction).frequency_ratio;
+  if (viewer_.measured) g *= to_observer(*viewer_.measured, at.direction).frequency_ratio;
   return {{apply_transposed(observer_.tetrad_from_camera, at.direction)},
           received_flux(effects_, 1, image.amplification, at.frequency_ratio, g),
           g};

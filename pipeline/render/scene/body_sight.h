@@ -2,14 +2,15 @@
 // questions about single images.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "pipeline/optics/body_image.h"
-#include "pipeline/optics/hole_optics.h"
+#include "pipeline/light/body_image.h"
+#include "pipeline/light/lens.h"
 #include "pipeline/render/scene/scene_stars.h"
 #include "pipeline/show/frame_state.h"
-#include "pipeline/show/vantage.h"
+#include "pipeline/show/viewer.h"
 
 namespace domefall {
 
@@ -33,6 +34,8 @@ class BodySight {
   // Returns the first order that is seen.  An observer who rides a body of no size sees only the
   // light that it sent around the hole before.  One who is within a sphere sees nothing of it.
   int first_order(const Body& body) const;
+  // Says whether the body has a direct image that is left out for this reason.
+  bool is_too_near(const Body& body) const;
 
   // An Image is the image of one order in the tetrad.  Its amplification refers to the light of
   // star_of(body).
@@ -47,8 +50,8 @@ class BodySight {
   // There are no pieces where one blob is enough, nor where images are not amplified.
   std::vector<SkyImage> pieces(const Body& body, const Image& image, double sigma) const;
 
-  // A Seen describes an image as the camera receives it.  `brightening` is the flux, as the
-  // renderer draws it, over that of star_of(body).  The frequency ratio is the one that is
+  // A Seen describes an image as the camera receives it.  `brightening` is the bolometric flux, as
+  // the renderer draws it, over that of star_of(body).  The frequency ratio is the one that is
   // measured.
   struct Seen {
     CameraDirection direction;
@@ -62,7 +65,8 @@ class BodySight {
 
   const Effects& effects_;
   const ObserverState& observer_;
-  Vantage vantage_;
+  Viewer viewer_;
+  std::shared_ptr<const Lens> lens_;
   double least_radius_;
 };
 

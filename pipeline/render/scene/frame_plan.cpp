@@ -25,6 +25,13 @@ bool FramePlan::has_background() const {
   return std::any_of(sky.begin(), sky.end(), [](const Sky& s) { return s.background; });
 }
 
+WantedSkies FramePlan::wanted() const {
+  WantedSkies wanted;
+  for (const SkyRegion which : kEverySky) wanted.sky[which] = sky[which].lit();
+  wanted.emission_times = sky[SkyRegion::kIV].lit() && sky[SkyRegion::kIV].rings;
+  return wanted;
+}
+
 FramePlan plan_frame(const Show& show, const FrameState& state) {
   const ObserverState& o = state.observer;
   const PerSky<bool> seen = seen_skies(o);

@@ -2,8 +2,9 @@
 // it.
 #pragma once
 
+#include "pipeline/light/lens.h"
 #include "pipeline/show/frame_state.h"
-#include "trajectories/sky_region.h"
+#include "pipeline/spacetime/regions.h"
 
 namespace domefall {
 
@@ -24,6 +25,7 @@ struct FramePlan {
 
   const Sky& operator[](SkyRegion which) const { return sky[which]; }
   bool has_background() const;
+  WantedSkies wanted() const;  // by the frame's lens
 };
 
 // Makes the plan from the observer's region, the show's skies and the gains at this instant,

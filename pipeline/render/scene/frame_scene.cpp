@@ -47,13 +47,12 @@ FrameState looking_through(const FrameState& state, const CubemapFace& face) {
 }  // namespace
 
 FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
-                       const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
+                       std::shared_ptr<const Lens> lens, const PerSky<const Sky*>& skies,
                        SkyMotion sky_motion, const DiscLight* disc_light)
     : state(frame),
       effects(show.effects),
       plan(frame_plan),
-      optics(hole_optics),
-      tracer(state, hole_optics, show.effects),
+      tracer(state, std::move(lens), show.effects),
       exposure(exposure_scale(frame.settings)),
       point_spread(show.point_spread, frame.projection, exposure),
       star_saturation(static_cast<float>(show.star_saturation)),
@@ -68,8 +67,7 @@ FrameScene::FrameScene(const FrameScene& whole, const CubemapFace& face)
     : state(looking_through(whole.state, face)),
       effects(whole.effects),
       plan(whole.plan),
-      optics(whole.optics),
-      tracer(state, whole.optics, whole.effects),
+      tracer(state, whole.tracer.lens(), whole.effects),
       exposure(whole.exposure),
       point_spread(whole.point_spread),
       star_saturation(whole.star_saturation),

@@ -4,16 +4,17 @@
 // anything from the show again.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "pipeline/disc/disc_light.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/scene/frame_plan.h"
 #include "pipeline/render/scene/point_spread.h"
 #include "pipeline/render/scene/sky_light.h"
 #include "pipeline/show/body.h"
-#include "projections/cubemap_faces.h"
+#include "pipeline/sources/disc/disc_light.h"
+#include "projections/projection.h"
 
 namespace domefall {
 
@@ -28,11 +29,11 @@ struct SkyMotion {
 };
 
 struct FrameScene {
-  // `skies` has null for a sky that the plan leaves out.  The show, the optics, the skies and
-  // `disc_light` must outlive the scene.  `disc_light` is the light of the show's disc, or null
+  // `skies` has null for a sky that the plan leaves out.  The show, the skies and `disc_light` must
+  // outlive the scene.  `disc_light` is the light of the show's disc, or null
   // where the plan has no disc.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
-             const HoleOptics& hole_optics, const PerSky<const Sky*>& skies,
+             std::shared_ptr<const Lens> lens, const PerSky<const Sky*>& skies,
              SkyMotion sky_motion = {}, const DiscLight* disc_light = nullptr);
 
   // The face of a cubemap is the same scene in another direction.  Its blobs are as wide as in the
@@ -42,7 +43,6 @@ struct FrameScene {
   const FrameState state;
   const Effects& effects;
   const FramePlan plan;
-  const HoleOptics& optics;
   const ViewTracer tracer;
   const double exposure;  // the pixel value of 1 cd/m^2
   const PointSpread point_spread;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/colour/colour_space.h"
+#include "pipeline/base/simd/vector_math.h"
 #include "pipeline/render/scene/exposure.h"
-#include "pipeline/simd/vector_math.h"
+#include "pipeline/sources/colour/colour_space.h"
 
 namespace domefall {
 namespace {
@@ -39,7 +39,7 @@ double least_halo_light(double share, double sigma) {
 PointSpread::PointSpread(const PointSpreadLaw& law, const Projection& projection, double exposure)
     : law_(law),
       least_(std::max(law.min_sigma * width_factor(projection),
-                      kLeastSigmaPixels * central_pixel_angle(projection))),
+                      kLeastSigmaPixels * largest_pixel_angle(projection))),
       most_(std::max(law.max_sigma * width_factor(projection), least_)),
       reference_(kMagnitudeZeroLux * exposure *
                  exponential(-0.4 * std::numbers::ln10 * law.reference_magnitude)),

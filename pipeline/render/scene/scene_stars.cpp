@@ -1,46 +1,15 @@
 #include "pipeline/render/scene/scene_stars.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include "pipeline/colour/blackbody.h"
+#include "pipeline/render/scene/seen_magnitude.h"
+#include "pipeline/sources/colour/blackbody.h"
 
 namespace domefall {
 namespace {
-
-// Returns bolometric_flux_at_v_zero(T) from a table that is linear in the logarithms of T and of
-// the flux.  The measured relative error is below 4e-5 from 1000 K on.
-class FluxOfVZero {
- public:
-  double operator()(double temperature) const {
-    if (!(temperature > kCoolest && temperature < kHottest))
-      return bolometric_flux_at_v_zero(temperature);
-    const double at = std::log(temperature / kCoolest) / step();
-    const auto k = std::min(static_cast<std::size_t>(at), kNodes - 2);
-    const double w = at - static_cast<double>(k);
-    return std::exp(logarithm_[k] + w * (logarithm_[k + 1] - logarithm_[k]));
-  }
-
-  FluxOfVZero() {
-    for (std::size_t k = 0; k < kNodes; ++k)
-      logarithm_[k] =
-          std::log(bolometric_flux_at_v_zero(kCoolest * std::exp(step() * static_cast<double>(k))));
-  }
-
- private:
-  static constexpr double kCoolest = 500, kHottest = 1e6;
-  static constexpr std::size_t kNodes = 4096;
-  static double step() { return std::log(kHottest / kCoolest) / (kNodes - 1); }
-  std::array<double, kNodes> logarithm_;
-};
-
-const FluxOfVZero& flux_of_v_zero() {
-  static const FluxOfVZero table;
-  return table;
-}
 
 // Returns the angular radius rho of a star.  A disc of radiance B brings the flux B pi rho^2.
 double angular_radius(double flux, double temperature) {
@@ -61,7 +30,7 @@ SceneStars::SceneStars(const std::vector<Star>& stars) {
   reserve(stars.size());
   for (const std::uint32_t k : order) {
     const Star& s = stars[k];
-    const double flux = std::pow(10, -0.4 * s.v_magnitude) * flux_of_v_zero()(s.temperature);
+    const double flux = std::pow(10, -0.4 * s.v_magnitude) * flux_of_v_zero(s.temperature);
     push_back(s.direction.v, s.v_magnitude, flux, s.temperature);
   }
   find_bounds();

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "pipeline/sky/catalogue/star_catalogue.h"
+#include "pipeline/sources/stars/star_catalogue.h"
 
 namespace domefall {
 

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/colour/blackbody.h"
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/vector_math.h"
 #include "pipeline/render/scene/effect_ratios.h"
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/simd/vector_math.h"
-#include "pipeline/sky/grid_sky.h"
-#include "pipeline/sky/ring_sky.h"
+#include "pipeline/sources/colour/blackbody.h"
+#include "pipeline/sources/sky/formula_sky.h"
 
 namespace domefall {
 namespace {

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "pipeline/render/scene/sky_store.h"
-#include "pipeline/sky/grid_sky.h"
+#include "pipeline/sources/sky/formula_sky.h"
 
 namespace domefall {
 

@@ -4,8 +4,8 @@
 #include <iterator>
 #include <utility>
 
-#include "pipeline/sky/catalogue/read_star_catalogue.h"
-#include "pipeline/sky/maps/sky_file.h"
+#include "pipeline/sources/sky/sky_file.h"
+#include "pipeline/sources/stars/star_catalogue.h"
 
 namespace domefall {
 namespace {

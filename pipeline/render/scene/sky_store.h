@@ -16,10 +16,10 @@
 #include "pipeline/render/scene/frame_plan.h"
 #include "pipeline/render/scene/scene_stars.h"
 #include "pipeline/show/show.h"
-#include "pipeline/sky/maps/dark_level.h"
-#include "pipeline/sky/maps/sky_map.h"
-#include "pipeline/sky/read_sky.h"
-#include "trajectories/sky_region.h"
+#include "pipeline/sources/sky/dark_level.h"
+#include "pipeline/sources/sky/read_sky.h"
+#include "pipeline/sources/sky/sky_map.h"
+#include "pipeline/spacetime/regions.h"
 
 namespace domefall {
 

@@ -20,8 +20,8 @@ inline double part_within_limit(const FrameSettings::Sky& sky, double magnitude)
 // Returns the flux of an image of a star.  `amplification` is that of the image in the tetrad, and
 // `doppler` is the frequency ratio of the boost to the observer, who sees g times the emitted
 // frequency.  The boost divides solid angles by doppler^2, so the observer's amplification is f =
-// amplification/doppler^2.  By [Riazuelo] sec. sec_stars_eff the magnitude of the image is
-//     m + 10 log10(1+z) - 2.5 log10(f).
+// amplification/doppler^2.  By [Riazuelo] sec. sec_stars_eff the bolometric magnitude of the image
+// is m + 10 log10(1+z) - 2.5 log10(f).
 inline double received_flux(const Effects& effects, double flux, double amplification,
                             double doppler, double g) {
   if (effects.amplification != Amplification::kNone) flux *= amplification / (doppler * doppler);

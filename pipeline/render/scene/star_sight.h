@@ -1,11 +1,13 @@
-// Finds where one observer sees the images of a star, by the exact inverse of the tables.  It
+// Finds where one observer sees the images of a star, one by one.  It
 // serves names and questions about single stars, while the renderer's StarImageFinder finds the
 // images of millions.
 #pragma once
 
-#include "pipeline/optics/hole_optics.h"
+#include <memory>
+
+#include "pipeline/light/lens.h"
 #include "pipeline/show/frame_state.h"
-#include "pipeline/show/vantage.h"
+#include "pipeline/show/viewer.h"
 #include "projections/projection.h"
 
 namespace domefall {
@@ -23,8 +25,9 @@ class StarSight {
 
   struct Image {
     CameraDirection direction;
-    // This is the flux, as the renderer draws it under the show's effects, over the star's own.
-    double brightening;
+    // `brightening` is the bolometric flux, as the renderer draws it under the show's effects, over
+    // the star's own.  The frequency ratio is the one that is measured.
+    double brightening, frequency_ratio;
   };
   // Returns the image of an order (image_of) below orders().
   Image image(SkyRegion sky, const SkyDirection& star, int order) const;
@@ -32,8 +35,9 @@ class StarSight {
  private:
   const Effects& effects_;
   const ObserverState& observer_;
-  Vantage vantage_;
-  HoleOptics optics_;
+  Viewer viewer_;
+  std::shared_ptr<const Lens> lens_;
+  PerSky<std::unique_ptr<const SkyPoints>> points_;
 };
 
 }  // namespace domefall

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "pipeline/sky/maps/sky_map.h"
+#include "pipeline/sources/sky/sky_map.h"
 
 namespace domefall {
 

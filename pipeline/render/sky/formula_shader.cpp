@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "pipeline/sky/grid_sky.h"
-#include "pipeline/sky/ring_sky.h"
+#include "pipeline/sources/sky/formula_sky.h"
 
 namespace domefall {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "pipeline/render/rays/footprint_batch.h"
-#include "pipeline/render/rays/pixel_directions.h"
-#include "pipeline/sky/grid_sky.h"
+#include "pipeline/sources/sky/formula_sky.h"
+#include "projections/pixel_directions.h"
 
 namespace domefall {
 namespace {
@@ -59,8 +59,7 @@ void PixelShader::find_grids(const ViewRayBatch& rays, const double* angle, int 
   int places = 0;
   for (int k = 0; k < count; ++k) {
     if (!is_grid(rays.sky[k])) continue;
-    const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
-    const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
+    const double longer = rays.longer(k), shorter = rays.shorter(k);
     grid.places[k] = static_cast<std::uint8_t>(places);
     x[places] = rays.sky_x[k];
     y[places] = rays.sky_y[k];
@@ -113,9 +112,7 @@ bool PixelShader::needs_more_samples(const ViewRayBatch& rays, int k, double pix
   // A formula averages the light of rings over footprints (ring_glow), so they need no more
   // samples.
   if (!background || background->rings() != nullptr) return false;
-  const double longer = std::max(rays.radial_scale[k], rays.tangential_scale[k]);
-  const double shorter = std::min(rays.radial_scale[k], rays.tangential_scale[k]);
-  if (longer > kElongation * shorter && scene_.amplifies_backgrounds()) return true;
+  if (rays.longer(k) > kElongation * rays.shorter(k) && scene_.amplifies_backgrounds()) return true;
   return is_grid(rays.sky[k]) && grid.even[grid.places[k]] == 0;
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/simd/dispatch.h"
+#include "pipeline/base/simd/dispatch.h"
 
 namespace domefall {
 namespace {
@@ -71,9 +71,8 @@ Dispatched<check_loop> check;
 void RayGrid::resize(const Projection& projection) {
   projection_ = projection;
   circle_.reset();
-  if (std::holds_alternative<Domemaster>(projection) ||
-      std::holds_alternative<Fisheye>(projection)) {
-    const PixelPosition middle = *pixel_of(projection, {{0, 0, 1}});
+  if (traits_of(projection).is_dome) {
+    const PixelPosition middle = origin_of(projection);
     circle_ = PixelPosition{middle.i - 1, middle.j - 1};
   }
   cell_columns_ = (columns(projection) + kStep - 1) / kStep;
@@ -133,12 +132,12 @@ bool RayGrid::is_smooth(int row, int column) const {
 
 // On an image with a seam, or with a point that is stretched into a line, cells may be close
 // together on the sphere and far apart in the image.  There distances are measured on the sphere.
-// No pixel covers more than the central one, so the central pixel's angle bounds them.
+// The largest pixel's angle bounds them.
 bool RayGrid::is_near_special(int row, int column) const {
-  if (has_zenith(projection_) && !std::holds_alternative<Domemaster>(projection_)) {
+  if (has_zenith(projection_) && !traits_of(projection_).half_sphere) {
     if (special_.empty()) return false;
     const CameraDirection n = direction_at(projection_, {column * kStep + 1.0, row * kStep + 1.0});
-    const double reach = kSpecialCells * kStep * central_pixel_angle(projection_);
+    const double reach = kSpecialCells * kStep * largest_pixel_angle(projection_);
     return std::any_of(special_.begin(), special_.end(),
                        [&](const CameraDirection& s) { return (s.v - n.v).length() < reach; });
   }

@@ -2,9 +2,9 @@
 #include <array>
 #include <cstring>
 
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/lanes.h"
 #include "pipeline/render/sky/ray_grid.h"
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/simd/lanes.h"
 
 namespace domefall {
 namespace {

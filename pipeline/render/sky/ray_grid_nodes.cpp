@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/simd/dispatch.h"
 #include "pipeline/render/rays/footprint_batch.h"
-#include "pipeline/render/rays/pixel_directions.h"
 #include "pipeline/render/sky/ray_grid.h"
-#include "pipeline/simd/dispatch.h"
+#include "projections/pixel_directions.h"
 
 namespace domefall {
 namespace {
@@ -33,7 +33,7 @@ Dispatched<set_tolerances_loop> set_tolerances;
 // Returns the range of a row's nodes on which cells with pixels in the image depend.  A dome needs
 // only those around its disc.
 std::pair<int, int> RayGrid::needed_nodes(int row) const {
-  if (!std::holds_alternative<Domemaster>(projection_)) return {0, node_columns_};
+  if (!traits_of(projection_).half_sphere) return {0, node_columns_};
   // Cells with pixels in the disc depend on nodes up to kMargin + 1 steps beyond it.
   const double middle = (columns(projection_) - 1) / 2.0;
   const double y =

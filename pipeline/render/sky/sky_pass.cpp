@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/optics/aberration.h"
+#include "pipeline/light/aberration.h"
 
 namespace domefall {
 namespace {
@@ -23,7 +23,7 @@ bool has_backgrounds(const FrameScene& scene) {
 
 std::vector<CameraDirection> special_directions(const FrameScene& scene) {
   constexpr double kFast = 3;  // of a celerity; slower observers see light crowded little
-  const V3d& celerity = scene.tracer.vantage().celerity;
+  const V3d& celerity = scene.tracer.viewer().celerity;
   std::vector<CameraDirection> special;
   const auto add = [&](const V3d& in_tetrad) {
     special.push_back({apply_transposed(scene.state.observer.tetrad_from_camera, in_tetrad)});
@@ -32,10 +32,9 @@ std::vector<CameraDirection> special_directions(const FrameScene& scene) {
     add(celerity.normalized());
     add(-celerity.normalized());
   }
-  // The axis is seen where aberration moves it.
-  if (scene.optics.white_hole)
-    for (const double outward : {1.0, -1.0})
-      add(to_observer(celerity, V3d(outward, 0, 0)).direction);
+  // Aberration moves what is special to the lens.
+  for (const V3d& n : scene.tracer.lens()->special_directions())
+    add(to_observer(celerity, n).direction);
   return special;
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/colour/blackbody.h"
+#include "pipeline/base/simd/dispatch.h"
 #include "pipeline/render/sky/tap_queue.h"
-#include "pipeline/simd/dispatch.h"
+#include "pipeline/sources/colour/blackbody.h"
 
 namespace domefall {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pipeline/render/sky/sample_batch.h"
-#include "pipeline/sky/maps/sky_map.h"
+#include "pipeline/sources/sky/sky_map.h"
 
 namespace domefall {
 

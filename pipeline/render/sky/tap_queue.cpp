@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/simd/dispatch.h"
+#include "pipeline/base/simd/dispatch.h"
 
 namespace domefall {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "pipeline/optics/aberration.h"
+#include "pipeline/light/aberration.h"
 
 namespace domefall {
 namespace {
@@ -17,7 +17,7 @@ using std::numbers::pi;
 constexpr double kCrowded = 0.5, kCapPixels = 1.5;
 // This is more than the 0.71 pixels from a pixel's middle to its corner.
 constexpr double kHalfDiagonal = 0.75;
-// These are the numbers of samples from the edge of a sky to its far end, and around the axis.
+// These are the numbers of samples from the edge of a sky to its far end, and around that.
 constexpr int kAlong = 192, kAround = 384;
 
 // A CapLight is the light that has been gathered in a cap.
@@ -38,24 +38,23 @@ class UnresolvedSkyFinder {
   explicit UnresolvedSkyFinder(const FrameScene& scene)
       : scene_(scene),
         observer_(scene.state.observer),
-        vantage_(scene.tracer.vantage()),
-        to_observer_(-vantage_.celerity),
-        to_measured_(-vantage_.measured.value_or(V3d(0, 0, 0))),
-        pixel_(central_pixel_angle(scene.projection())) {}
+        viewer_(scene.tracer.viewer()),
+        to_observer_(-viewer_.celerity),
+        to_measured_(-viewer_.measured.value_or(V3d(0, 0, 0))),
+        pixel_(largest_pixel_angle(scene.projection())) {}
 
   // Looks for a sky that lensing crowds around `toward`, a direction in the observer's tetrad.
-  void integrate_lensed(SkyRegion sky, const SkyTable& table, const V3d& toward,
-                        UnresolvedSkies& found) const {
+  void integrate_lensed(SkyRegion sky, const V3d& toward, UnresolvedSkies& found) const {
     const auto cap = crowded_cap(sky, toward, found);
     if (!cap) return;
     CapLight light;
-    gather_lensed(*scene_.background[sky], table, *cap, light);
+    gather_lensed(sky, *cap, light);
     add(*cap, light, found);
   }
 
   // Looks for a sky that aberration alone crowds ahead.
   void integrate_straight(SkyRegion sky, UnresolvedSkies& found) const {
-    const auto cap = crowded_cap(sky, vantage_.celerity.normalized(), found);
+    const auto cap = crowded_cap(sky, viewer_.celerity.normalized(), found);
     if (!cap) return;
     CapLight light;
     gather_straight(*scene_.background[sky], *cap, light);
@@ -73,9 +72,7 @@ class UnresolvedSkyFinder {
       if (other.sky == sky && (other.centre.v - centre.v).length2() < 4 * reach2)
         return std::nullopt;
     const ViewRay ray = scene_.tracer.trace(centre);
-    if (!ray.known || ray.sky != sky ||
-        !(std::max(ray.radial_scale, ray.tangential_scale) * pixel_ > kCrowded))
-      return std::nullopt;
+    if (!ray.known || ray.sky != sky || !(ray.longer() * pixel_ > kCrowded)) return std::nullopt;
     return DarkenedCap{sky, centre, reach2};
   }
 
@@ -103,39 +100,23 @@ class UnresolvedSkyFinder {
     return (ray - cap.centre.v).length2() <= cap.chord2;
   }
 
-  // Adds the light of all samples of the sky that arrive within the cap.  They are evenly spaced in
-  // the ray's angle from the edge, which is 4 atan(x/2) for the table's coordinate x, and in the
-  // angle about the axis.  The observer sees each steradian of the tetrad's view as 1/d^2
-  // steradians, where d is the frequency ratio.
-  void gather_lensed(const SkyLight& sky, const SkyTable& table, const DarkenedCap& cap,
-                     CapLight& light) const {
-    const double reach = 4 * std::atan(table.x_max() / 2), d_alpha = reach / kAlong;
-    const double d_psi = 2 * pi / kAround;
+  // Adds the light of all samples of the sky that arrive within the cap.  The observer sees each
+  // steradian of the tetrad's view as 1/d^2 steradians, where d is the frequency ratio.
+  void gather_lensed(SkyRegion sky, const DarkenedCap& cap, CapLight& light) const {
     const bool amplified = scene_.amplifies_backgrounds();
-    for (int i = 0; i < kAlong; ++i) {
-      const double x = 2 * std::tan((i + 0.5) * d_alpha / 4);
-      const NullRay ray = table.ray_at_distance(x);
-      // The double-angle formulas give the sine and cosine of alpha.
-      const double sine = 2 * ray.sin_half * ray.cos_half;
-      const double cosine = (ray.cos_half - ray.sin_half) * (ray.cos_half + ray.sin_half);
-      const double phi = table.azimuth(x), g = 1 / one_plus_z(ray);
-      const double slope = table.slope(x), ray_angle = 2 * std::atan2(ray.sin_half, ray.cos_half);
-      const double footprint = std::max(slope * d_alpha, std::abs(std::sin(phi)) * d_psi);
-      for (int j = 0; j < kAround; ++j) {
-        const V3d e(0, std::cos((j + 0.5) * d_psi), std::sin((j + 0.5) * d_psi));
-        const AberratedLight seen =
-            to_observer_.to_rest(V3d(ray.outgoing ? cosine : -cosine, 0, 0) + e * sine);
-        const V3d n = apply_transposed(observer_.tetrad_from_camera, seen.direction);
-        if (!is_darkened(cap, n)) continue;
-        const double d = seen.frequency_ratio;
-        const double measured =
-            vantage_.measured ? to_measured_.to_rest(seen.direction).frequency_ratio : 1;
-        const V3d from =
-            apply(observer_.sky_from_tetrad, V3d(std::cos(phi), 0, 0) + e * std::sin(phi));
-        const WorkingRgb c = sky.at(from, footprint, g * d * measured);
-        const double f = amplified ? amplification({ray_angle, phi, slope, d}, pixel_) : 1;
-        light.add(c, f * sine * d_alpha * d_psi / (d * d), n);
-      }
+    for (const SkySample& sample : scene_.tracer.lens()->divided(sky, kAlong, kAround)) {
+      const AberratedLight seen = to_observer_.to_rest(sample.direction);
+      const V3d n = apply_transposed(observer_.tetrad_from_camera, seen.direction);
+      if (!is_darkened(cap, n)) continue;
+      const double d = seen.frequency_ratio;
+      const double measured =
+          viewer_.measured ? to_measured_.to_rest(seen.direction).frequency_ratio : 1;
+      const WorkingRgb c = scene_.background[sky]->at(sample.sky_direction, sample.footprint,
+                                                      sample.frequency_ratio * d * measured);
+      RayBundle bundle = sample.bundle;
+      bundle.doppler = d;
+      const double f = amplified ? amplification(bundle, pixel_) : 1;
+      light.add(c, f * sample.solid_angle / (d * d), n);
     }
   }
 
@@ -145,12 +126,12 @@ class UnresolvedSkyFinder {
   // by [Riazuelo] eq. eq_inv_aberr, written in half angles.  The observer sees each steradian as
   // 1/d^2 steradians, where d is the frequency ratio.
   void gather_straight(const SkyLight& sky, const DarkenedCap& cap, CapLight& light) const {
-    const double speed = vantage_.celerity.length(), widening = std::hypot(1, speed) + speed;
+    const double speed = viewer_.celerity.length(), widening = std::hypot(1, speed) + speed;
     const double edge = std::min((kCapPixels + kHalfDiagonal) * pixel_, pi);
     const double d_alpha = 2 * std::atan(widening * std::tan(edge / 2)) / kAlong;
     const double d_psi = 2 * pi / kAround;
     const bool amplified = scene_.amplifies_backgrounds();
-    const V3d ahead = vantage_.celerity / speed;
+    const V3d ahead = viewer_.celerity / speed;
     const V3d aside =
         ahead.cross(std::abs(ahead.x) < 0.5 ? V3d(1, 0, 0) : V3d(0, 1, 0)).normalized();
     const V3d third = ahead.cross(aside);
@@ -176,7 +157,7 @@ class UnresolvedSkyFinder {
 
   const FrameScene& scene_;
   const ObserverState& observer_;
-  const Vantage& vantage_;
+  const Viewer& viewer_;
   Aberration to_observer_, to_measured_;
   double pixel_;  // radians, in the middle of the image
 };
@@ -186,24 +167,20 @@ class UnresolvedSkyFinder {
 UnresolvedSkies find_unresolved_skies(const FrameScene& scene) {
   UnresolvedSkies found;
   const UnresolvedSkyFinder finder(scene);
-  const V3d& celerity = scene.tracer.vantage().celerity;
+  const V3d& celerity = scene.tracer.viewer().celerity;
   const bool fast = celerity.length() > 1;
   if (!scene.plan.gravity) {
     if (scene.background[SkyRegion::kI] && fast) finder.integrate_straight(SkyRegion::kI, found);
     return found;
   }
-  // The far ends of both skies lie on the axis, that of the tetrad's own sky outward and that of
-  // the other one inward.
-  const auto integrate = [&](SkyRegion sky, double outward) {
-    const SkyTable* table = scene.optics.table_of(sky);
-    if (!scene.background[sky] || table == nullptr) return;
-    finder.integrate_lensed(sky, *table, to_observer(celerity, V3d(outward, 0, 0)).direction,
-                            found);
-    if (fast) finder.integrate_lensed(sky, *table, celerity.normalized(), found);
-  };
-  const auto [own, other] = scene.optics.skies();
-  integrate(own, 1);
-  integrate(other, -1);
+  const Lens& lens = *scene.tracer.lens();
+  const SkyRegion own = own_sky(scene.state.observer.tetrad);
+  for (const SkyRegion sky : {own, own == SkyRegion::kI ? SkyRegion::kIII : SkyRegion::kI}) {
+    const auto far_end = lens.far_end(sky);
+    if (!scene.background[sky] || !far_end) continue;
+    finder.integrate_lensed(sky, to_observer(celerity, *far_end).direction, found);
+    if (fast) finder.integrate_lensed(sky, celerity.normalized(), found);
+  }
   return found;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipeline/colour/blackbody.h"
+#include "pipeline/sources/colour/blackbody.h"
 
 namespace domefall {
 namespace {

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/colour/blackbody.h"
 #include "pipeline/render/scene/effect_ratios.h"
 #include "pipeline/render/scene/exposure.h"
 #include "pipeline/render/scene/star_light.h"
-#include "pipeline/render/stars/einstein_rings.h"
 #include "pipeline/show/curve.h"
+#include "pipeline/sources/colour/blackbody.h"
 
 namespace domefall {
 namespace {
@@ -60,9 +59,12 @@ double farthest_passage(const FrameScene& scene, double stretch) {
   double farthest = kInstant * way;
   if (scene.motion.gap < 1)
     farthest = std::max(farthest, way * scene.motion.gap * stretch /
-                                      (kTrailPixels * central_pixel_angle(scene.projection())));
+                                      (kTrailPixels * largest_pixel_angle(scene.projection())));
   return std::min(farthest, kFarthestPassage);
 }
+
+// These are the tolerances of images in batches, in pixels and in parts of the light.
+constexpr double kPositionError = 0.01, kFluxError = 1e-4;
 
 // A part of a trail is taken to be this much longer than its chord, since it is bent.
 constexpr double kWayPerChord = 1.1;
@@ -87,24 +89,25 @@ StarImageFinder::StarImageFinder(const FrameScene& scene, SkyRegion sky)
     : scene_(scene),
       sky_(scene.state.settings.sky[sky]),
       observer_(scene.state.observer),
-      vantage_(scene.tracer.vantage()),
-      table_(scene.plan.gravity ? scene.optics.table_of(sky) : nullptr),
-      from_tetrad_(-vantage_.celerity),
-      to_measured_(-vantage_.measured.value_or(V3d(0, 0, 0))),
-      from_rest_(vantage_.rest),
-      straight_ratio_(scene.effects.lensing ? 1 : gravitational_ratio(observer_.r)),
+      viewer_(scene.tracer.viewer()),
+      from_tetrad_(-viewer_.celerity),
+      to_measured_(-viewer_.measured.value_or(V3d(0, 0, 0))),
       peak_per_lux_(peak_per_lux(scene.exposure, scene.point_spread)),
-      stretch_(std::sqrt(1 + vantage_.celerity.length2()) + vantage_.celerity.length()),
-      has_caustics_(table_ != nullptr && scene.effects.lensing &&
-                    scene.effects.amplification != Amplification::kNone),
-      near_(has_caustics_ ? farthest_passage(scene, stretch_) : 0),
+      stretch_(std::sqrt(1 + viewer_.celerity.length2()) + viewer_.celerity.length()),
       // The loops know all effects of nature and nothing else.
-      in_batches_((scene.effects.lensing || is_flat(observer_)) && scene.effects.intensity &&
+      in_batches_(scene.tracer.lens()->frame() == V3d(0, 0, 0) && scene.effects.intensity &&
                   scene.effects.doppler_colour &&
-                  scene.effects.amplification != Amplification::kNone && !vantage_.measured),
+                  scene.effects.amplification != Amplification::kNone && !viewer_.measured),
       plane_(scene.projection(),
-             scene.point_spread.reach() + kBlurPixels * central_pixel_angle(scene.projection())) {
-  if (in_batches_) prepare_batches();
+             scene.point_spread.reach() + kBlurPixels * largest_pixel_angle(scene.projection())) {
+  std::optional<PointTolerance> tolerance;
+  if (in_batches_)
+    tolerance = {kPositionError * largest_pixel_angle(scene.projection()) / stretch_, kFluxError};
+  points_ = scene.tracer.lens()->points(sky, tolerance);
+  has_caustics_ =
+      points_ && points_->has_axis() && scene.effects.amplification != Amplification::kNone;
+  near_ = has_caustics_ ? farthest_passage(scene, stretch_) : 0;
+  if (in_batches_ && points_) prepare_batches();
 }
 
 // Returns the star with the gain and the limit of the frame applied to its flux, or nothing if no
@@ -120,17 +123,13 @@ std::optional<SceneStar> StarImageFinder::with_gain(const SceneStar& catalogued)
 void StarImageFinder::append(const SceneStar& catalogued, std::vector<StarImage>& images) const {
   const auto star = with_gain(catalogued);
   if (star)
-    append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v), 0, kOrders,
-                  images);
+    append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v), 0,
+                  points_->orders(), images);
 }
 
 // Appends the images of the orders from `first` to before `end`.
 void StarImageFinder::append_orders(const SceneStar& star, const V3d& source, int first, int end,
                                     std::vector<StarImage>& images) const {
-  if (table_ == nullptr) {
-    append_order(star, source, std::nullopt, 0, images);
-    return;
-  }
   if (scene_.effects.amplification == Amplification::kNone)
     end = std::min(end, kOrdersWithoutAmplification);
   const std::optional<AxisPassage> passage = passage_of(star, source);
@@ -188,10 +187,7 @@ std::optional<AxisPassage> StarImageFinder::passage_of(const SceneStar& star,
 
 // Returns the image of one order in the frame of the tetrad.
 SkyImage StarImageFinder::image(const SceneStar& star, const V3d& source, int order) const {
-  if (scene_.effects.lensing) return image_of(table_, source, order, star.angular_radius);
-  const AberratedLight at = from_rest_.to_rest(source);
-  const double ratio = at.frequency_ratio;
-  return {{at.direction}, straight_ratio_ * ratio, 1 / (ratio * ratio)};
+  return out_of_lens(*scene_.tracer.lens(), points_->image(source, order, star.angular_radius));
 }
 
 // Returns the image as the camera receives it.  By [Riazuelo] sec. sec_stars_eff its temperature is
@@ -201,7 +197,7 @@ StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
   const AberratedLight seen = from_tetrad_.to_rest(at.direction.v);
   const double doppler = seen.frequency_ratio;
   double g = at.frequency_ratio * doppler;
-  if (vantage_.measured) g *= to_measured_.to_rest(seen.direction).frequency_ratio;
+  if (viewer_.measured) g *= to_measured_.to_rest(seen.direction).frequency_ratio;
   double flux = received_flux(scene_.effects, star.flux, at.amplification, doppler, g);
   if (!scene_.effects.doppler_colour) flux = std::min(flux, kSaturated);
   const WorkingRgb per_flux =
@@ -212,11 +208,12 @@ StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
   const WorkingRgb colour = saturated(per_flux, static_cast<float>(bright), scene_.star_saturation);
   Received received{{0, 0, {}}, bright * flux * peak_per_lux_, pixel.has_value()};
   if (!pixel) return received;
-  received.image = {
-      static_cast<float>(pixel->i - 1),
-      static_cast<float>(pixel->j - 1),
-      {static_cast<float>(colour.r * pixel_flux), static_cast<float>(colour.g * pixel_flux),
-       static_cast<float>(colour.b * pixel_flux)}};
+  const auto channel = [&](float per_unit) {
+    return static_cast<float>(std::min(per_unit * pixel_flux, kSaturated));
+  };
+  received.image = {static_cast<float>(pixel->i - 1),
+                    static_cast<float>(pixel->j - 1),
+                    {channel(colour.r), channel(colour.g), channel(colour.b)}};
   return received;
 }
 
@@ -226,12 +223,15 @@ bool StarImageFinder::append_order(const SceneStar& star, const V3d& source,
                                    const std::optional<AxisPassage>& passage, int order,
                                    std::vector<StarImage>& images) const {
   const bool caustic = on_caustic(source, order);
-  if (caustic && passage) return append_trail(star, StarTrail(*table_, *passage, order), images);
+  if (caustic && passage) {
+    const auto image_of = [&](const V3d& at) { return points_->image(at, order, 0); };
+    return append_trail(star, StarTrail(image_of, *passage), images);
+  }
   if (caustic && is_arc(star, source)) {
     const auto spacing = [&](const V3d& direction) {
       return kPieceSigmas * least_sigma_at(direction);
     };
-    return append_pieces(star, arc_of(*table_, source, order, radius_of(star), spacing), images);
+    return append_pieces(star, points_->arc(source, order, radius_of(star), spacing), images);
   }
   return append_image(star, image(star, source, order), images);
 }

@@ -1,12 +1,12 @@
 // A StarImageFinder finds the images of stars in one frame that are bright enough to be seen.
 #pragma once
 
-#include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/hole_optics.h"
+#include "pipeline/light/aberration.h"
+#include "pipeline/light/sky_points.h"
 #include "pipeline/render/scene/frame_scene.h"
 #include "pipeline/render/stars/star_loops.h"
 #include "pipeline/render/stars/star_trail.h"
@@ -22,9 +22,9 @@ inline constexpr double kFaintestPeak = 2e-4;
 //
 // Near the axis of the lens an image is bright and fast.  Where the sky turns, the image is the
 // mean over the time of a frame (star_trail.h).  Where the sky stands still, a star is an arc or a
-// ring if it is so near to the axis that its own disc matters (einstein_rings.h).
+// ring if it is so near to the axis that its own disc matters (SkyPoints::arc).
 //
-// Stars are found in batches by curves of the lens (lens_curve.h) and loops that become SIMD code
+// Stars are found in batches by the lens (sky_points.h) and loops that become SIMD code
 // (star_loops.h).  This part of the class is star_image_finder_batches.cpp.  Images near the axis,
 // images of high orders and those of frames without some effect are found one star at a time, in
 // star_image_finder.cpp.
@@ -34,7 +34,7 @@ class StarImageFinder {
   StarImageFinder(const FrameScene& scene, SkyRegion sky);
 
   // Appends the images of one star that are bright enough.  Some of them may lie outside the frame.
-  // Each order inverts the table, which is exact and slow.
+  // Each order is exact and slow.
   void append(const SceneStar& catalogued, std::vector<StarImage>& images) const;
 
   // Appends one image that was found elsewhere.  No gain or limit is applied to the star.  Returns
@@ -50,15 +50,13 @@ class StarImageFinder {
   // fluxes.
   std::size_t count(const SceneStars& stars) const;
   // Appends the images of a batch.  It begins with the star `first`, a multiple of kStarBatch, and
-  // stops at the end of the batch or before `end`.  Images differ from those of single stars by the
-  // errors of LensCurve (0.01 pixel, 1e-4 of the light).  Those whose blobs do not reach the frame
+  // stops at the end of the batch or before `end`.  Images differ from those of single stars by 0.01
+  // pixel and 1e-4 of the light.  Those whose blobs do not reach the frame
   // are left out.
   void append(const SceneStars& stars, std::size_t first, std::size_t end,
               std::vector<StarImage>& images) const;
 
  private:
-  static constexpr int kOrders = 24;  // the most that are tried
-  static constexpr int kCurves = 4;   // each for a pair of orders
   struct Received {
     StarImage image;
     double peak;  // pixel value of the smallest blob with this light
@@ -94,7 +92,7 @@ class StarImageFinder {
   SkyImage image(const SceneStar& star, const V3d& source, int order) const;
 
   void prepare_batches();
-  void append_curved(Batch& batch, int order, std::vector<StarImage>& images) const;
+  void append_batch(Batch& batch, int order, std::vector<StarImage>& images) const;
   void set_aside_axis(Batch& batch, double most_radius) const;
   void drop_faint(Batch& batch, int order) const;
   void set_aside_high_orders(Batch& batch) const;
@@ -106,26 +104,24 @@ class StarImageFinder {
   const FrameScene& scene_;
   const FrameSettings::Sky& sky_;  // gain and limit of these stars
   const ObserverState& observer_;
-  const Vantage& vantage_;
-  const SkyTable* table_;  // null where light goes straight
-  Aberration from_tetrad_, to_measured_, from_rest_;
-  double straight_ratio_;  // gravity's part of the frequency ratio where light goes straight
-  double peak_per_lux_;    // pixel value of the peak of the smallest blob
-  double stretch_;         // gamma + |celerity|, the most by which the boost stretches angles
-  bool has_caustics_;      // whether the lens brightens stars without bound near its axis
-  double near_;            // sine of the angle from the axis within which images may be trails
-  bool in_batches_;        // whether stars are found in batches
+  const Viewer& viewer_;
+  std::unique_ptr<const SkyPoints> points_;  // null where the lens has no table of the sky
+  Aberration from_tetrad_, to_measured_;
+  double peak_per_lux_;  // pixel value of the peak of the smallest blob
+  double stretch_;       // gamma + |celerity|, the most by which the boost stretches angles
+  bool has_caustics_;    // whether the lens brightens stars without bound near its axis
+  double near_;          // sine of the angle from the axis within which images may be trails
+  bool in_batches_;      // whether stars are found in batches
 
   // The members below are used if stars are found in batches.
   StarFrame batch_frame_;
   StarPlane plane_;
-  std::vector<LensCurve> curves_;
   // An image is too faint if this times its flux is below 1, where the flux includes the factor
   // amplification/(1+z)^4 in the tetrad.
   double brightness_per_flux_ = 0;
   // A star is too faint in an order and all that follow if the order's bound times the star's flux
   // is below the sine of its angle from the axis.
-  std::array<double, kOrders> bound_{};
+  std::vector<double> bound_;
 };
 
 }  // namespace domefall

@@ -4,24 +4,18 @@
 
 #include "pipeline/render/scene/star_light.h"
 #include "pipeline/render/stars/blackbody_table.h"
-#include "pipeline/render/stars/einstein_rings.h"
 #include "pipeline/render/stars/star_image_finder.h"
 
 namespace domefall {
 namespace {
 
-// The curve of each pair of orders has this number of intervals.  From order 2 on all images are
-// near the silhouette's edge, where fewer intervals are as accurate.
-constexpr int kIntervals[] = {512, 64, 64, 64};
-// These are the tolerances of the curves, in pixels and in parts of the light.
-constexpr double kPositionError = 0.01, kFluxError = 1e-4;
-// Sources at a smaller angle (radians) from the axis are not found by curves, since their azimuth
+// Sources at a smaller angle (radians) from the axis are not found in batches, since their azimuth
 // about the axis is lost in rounding.
 constexpr double kOnAxis = 1e-6;
 
 void copy_source(const StarSources& from, int k, StarSources& to, int at) {
   const auto i = static_cast<std::size_t>(k), o = static_cast<std::size_t>(at);
-  to.y[o] = from.y[i], to.z[o] = from.z[i];
+  to.x[o] = from.x[i], to.y[o] = from.y[i], to.z[o] = from.z[i];
   to.sine[o] = from.sine[i], to.v[o] = from.v[i];
   to.flux[o] = from.flux[i], to.temperature[o] = from.temperature[i];
 }
@@ -33,10 +27,10 @@ struct StarImageFinder::Batch {
   std::size_t first;  // index of its first star
   int count;
   StarSources sources;
-  // The next order of these sources is found by a curve.  They are off the axis and bright enough.
+  // The next order of these sources is found at once.  They are off the axis and bright enough.
   StarColumn<int> candidates;
   int candidate_count = 0;
-  // The orders of a source from first_order to before end_order are found by inverting the table.
+  // The orders of a source from first_order to before end_order are found one by one.
   struct SetAside {
     int source, first_order, end_order;
   };
@@ -55,28 +49,22 @@ void StarImageFinder::prepare_batches() {
   // which is at most stretch_.
   brightness_per_flux_ =
       blackbody_table().most_luminance() * peak_per_lux_ * stretch_ * stretch_ / kFaintestPeak;
-  bound_.fill(brightness_per_flux_);
-  if (table_ == nullptr) return;
-  batch_frame_.psi = psi_frame(*table_);
-  const LensCurve::Tolerance tolerance{
-      kPositionError * central_pixel_angle(scene_.projection()) / stretch_, kFluxError};
-  for (const int intervals : kIntervals)
-    curves_.emplace_back(*table_, static_cast<int>(curves_.size()), intervals, tolerance);
   // A bound covers all later orders too, so it is the largest from the last order down.
-  for (int order = kOrders - 1; order >= 0; --order) {
-    const auto k = static_cast<std::size_t>(order);
-    const double most = order < 2 * kCurves ? curves_[k / 2].largest_bound(order % 2 != 0)
-                                            : most_light_from(*table_, order);
-    bound_[k] = std::max(most * brightness_per_flux_, order + 1 < kOrders ? bound_[k + 1] : 0);
+  bound_.resize(static_cast<std::size_t>(points_->orders()));
+  double largest = 0;
+  for (int order = points_->orders() - 1; order >= 0; --order) {
+    largest = std::max(points_->most_light(order) * brightness_per_flux_, largest);
+    bound_[static_cast<std::size_t>(order)] = largest;
   }
 }
 
 std::size_t StarImageFinder::count(const SceneStars& stars) const {
+  if (!points_) return 0;
   std::size_t number = stars.count_to_magnitude(sky_.max_magnitude);
   if (!in_batches_) return number;
   // The sine of the angle from the axis counts as half the radius of the star's disc or more
-  // (least_sine()).  Flat space has no axis, and 1 stands for the sine.
-  const double least = table_ == nullptr ? 1 : scene_.least_star_radius / 2;
+  // (least_sine()).
+  const double least = points_->has_axis() ? scene_.least_star_radius / 2 : 1;
   while (number > 0 && !(stars.most_flux_from(number - 1) * sky_.star_gain * bound_[0] > least))
     number = (number - 1) / SceneStars::kBlock * SceneStars::kBlock;
   return number;
@@ -93,16 +81,11 @@ void StarImageFinder::append(const SceneStars& stars, std::size_t first, std::si
   batch.first = first;
   const int count = batch.count = static_cast<int>(end - first);
   find_sources(batch_frame_, stars, first, count, batch.sources);
-  if (table_ == nullptr) {
-    StarViews views;
-    go_straight(batch_frame_, batch.sources, count, views);
-    append_views(views, count, kFaintestPeak, images);
-    return;
-  }
+  points_->locate(batch.sources, count);
   set_aside_axis(batch, stars.most_angular_radius());
-  for (int order = 0; order < 2 * kCurves && batch.candidate_count > 0; ++order) {
+  for (int order = 0; order < points_->orders_in_batches() && batch.candidate_count > 0; ++order) {
     drop_faint(batch, order);
-    append_curved(batch, order, images);
+    append_batch(batch, order, images);
   }
   set_aside_high_orders(batch);
   append_exact(stars, batch, images);
@@ -115,7 +98,7 @@ void StarImageFinder::set_aside_axis(Batch& batch, double most_radius) const {
   for (int k = 0; k < batch.count; ++k) {
     batch.candidates[static_cast<std::size_t>(batch.candidate_count)] = k;
     if (batch.sources.sine[static_cast<std::size_t>(k)] < near)
-      batch.set_aside.push_back({k, 0, kOrders});
+      batch.set_aside.push_back({k, 0, points_->orders()});
     else
       ++batch.candidate_count;
   }
@@ -134,45 +117,49 @@ void StarImageFinder::drop_faint(Batch& batch, int order) const {
   batch.candidate_count = kept;
 }
 
-// Appends the candidates' images of one order, by the curve of the order.  Sources in intervals
-// that are not for use are set aside.
-void StarImageFinder::append_curved(Batch& batch, int order, std::vector<StarImage>& images) const {
-  const LensCurve& curve = curves_[static_cast<std::size_t>(order / 2)];
-  const double side = order % 2 == 0 ? 1 : -1;
-  const float* bounds = curve.bounds();
+// Appends the candidates' images of one order.  Sources whose images the lens does not find in
+// batches are set aside.
+void StarImageFinder::append_batch(Batch& batch, int order, std::vector<StarImage>& images) const {
+  StarColumn<float> bounds;
+  points_->bounds(order, batch.sources, batch.candidates.data(), batch.candidate_count,
+                  bounds.data());
   StarColumn<int> bright;
   int count = 0;
   for (int n = 0; n < batch.candidate_count; ++n) {
     const int source = batch.candidates[static_cast<std::size_t>(n)];
     const auto k = static_cast<std::size_t>(source);
-    const float bound = bounds[curve.interval_of(side * batch.sources.v[k])];
+    const float bound = bounds[static_cast<std::size_t>(n)];
     bright[static_cast<std::size_t>(count)] = source;
     count += batch.sources.flux[k] * brightness_per_flux_ * bound > batch.sources.sine[k] ? 1 : 0;
     if (bound < 0) batch.set_aside.push_back({source, order, order + 1});
   }
   if (count == 0) return;
   // If all sources of the batch are bright, they need not be copied.
-  StarViews views;
-  if (count == batch.count) {
-    bend(batch_frame_, curve, side, batch.sources, count, views);
-  } else {
-    StarSources copied;
+  StarSources copied;
+  const StarSources* sources = &batch.sources;
+  if (count < batch.count) {
     for (int n = 0; n < count; ++n)
       copy_source(batch.sources, bright[static_cast<std::size_t>(n)], copied, n);
-    bend(batch_frame_, curve, side, copied, count, views);
+    sources = &copied;
   }
+  PointImageBatch bent;
+  points_->images(order, *sources, count, bent);
+  StarViews views;
+  receive_images(batch_frame_, bent, *sources, count, views);
   append_views(views, count, kFaintestPeak, images);
 }
 
-// Sets aside the orders that have no curve.
+// Sets aside the orders that the lens does not find in batches.
 void StarImageFinder::set_aside_high_orders(Batch& batch) const {
-  drop_faint(batch, 2 * kCurves);
+  const int first = points_->orders_in_batches();
+  if (first >= points_->orders()) return;
+  drop_faint(batch, first);
   for (int n = 0; n < batch.candidate_count; ++n)
     batch.set_aside.push_back(
-        {batch.candidates[static_cast<std::size_t>(n)], 2 * kCurves, kOrders});
+        {batch.candidates[static_cast<std::size_t>(n)], first, points_->orders()});
 }
 
-// Appends the images that were set aside, by inverting the table.
+// Appends the images that were set aside, one by one.
 void StarImageFinder::append_exact(const SceneStars& stars, const Batch& batch,
                                    std::vector<StarImage>& images) const {
   for (const Batch::SetAside& orders : batch.set_aside)

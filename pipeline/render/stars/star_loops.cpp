@@ -4,10 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/optics/half_angle.h"
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/simd/transpose_quads.h"
-#include "pipeline/simd/vector_math.h"
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/vector_math.h"
 #include "projections/angle_over_sine.h"
 
 namespace domefall {
@@ -42,25 +40,11 @@ struct Input {
 }
 Dispatched<stars_into_tetrad_loop> stars_into_tetrad;
 
-// Fills the columns sine and v.  Let c and s be the cosine and the sine of half the angle from +R.
-// With t = tan(angle/4) = s/(1 + c), the addition theorem makes v = tan(pi/4 - angle/4) equal to
-// (1 - t)/(1 + t) = (1 + c - s)/(1 + c + s).
-[[gnu::always_inline]] inline void to_lens_loop(int count, StarSources& sources) {
-  for (int k = 0; k < count; ++k) {
-    const double x = sources.x[k], y = sources.y[k], z = sources.z[k];
-    const double sine = std::sqrt(y * y + z * z);
-    const HalfAngle half = half_angle(x, sine);
-    sources.sine[k] = sine;
-    sources.v[k] = (1 + half.cosine - half.sine) / (1 + half.cosine + half.sine);
-  }
-}
-Dispatched<to_lens_loop> to_lens;
-
 // Stores the k-th view.  Its light comes from `direction` in the frame of the tetrad with this
 // frequency ratio and amplification.
-inline void receive(const Aberration& boost, const M33d& camera, const V3d& direction,
-                    double frequency_ratio, double amplification, const StarSources& sources, int k,
-                    StarViews& views) {
+inline void store_view(const Aberration& boost, const M33d& camera, const V3d& direction,
+                       double frequency_ratio, double amplification, const StarSources& sources,
+                       int k, StarViews& views) {
   const ReceivedLight light =
       received(boost, camera, direction, frequency_ratio, sources.flux[k] * amplification);
   views.flux[k] = light.flux;
@@ -70,68 +54,18 @@ inline void receive(const Aberration& boost, const M33d& camera, const V3d& dire
   views.z[k] = light.direction.z;
 }
 
-// Cubics hold where the cubics of a batch of v stand in the table, and their coefficients by power.
-struct Cubics {
-  alignas(64) StarColumn<const double*> row;
-  alignas(64) StarColumn<double> v, share;
-  alignas(64) std::array<StarColumn<double>, LensCurve::kTerms> coefficient;
-};
-
-[[gnu::always_inline]] inline void look_up_loop(const LensCurve::Lookup& lookup, double side,
-                                                const double* v, int count, double* __restrict psi,
-                                                double* __restrict slope) {
-  const LensCurve::Lookup curve = lookup;
-  Cubics cubics;
-  for (int k = 0; k < count; ++k) {
-    cubics.v[k] = side * v[k];
-    const LensCurve::Lookup::Index at = curve(cubics.v[k]);
-    cubics.row[k] = at.coefficients;
-    cubics.share[k] = at.share;
-  }
-  const int whole = (count + 3) / 4 * 4;  // rows are fetched by fours
-  for (int k = count; k < whole; ++k) cubics.row[k] = curve.coefficients;
-  transpose_rows(cubics.row, whole, cubics.coefficient);
-  const auto& c = cubics.coefficient;
-  for (int k = 0; k < count; ++k) {
-    const LensCurve::View view =
-        curve.view(cubics.v[k], cubics.share[k], c[0][k], c[1][k], c[2][k], c[3][k]);
-    psi[k] = view.psi;
-    slope[k] = view.slope;
-  }
-}
-Dispatched<look_up_loop> look_up;
-
-// Makes views of images at the angles psi from the sky's far end.  An image lies in the plane of R
-// and its source, on the source's side for side = 1 and on the opposite side for -1.  Its
-// amplification is |sin psi d psi/(sin phi d phi)|.
-[[gnu::always_inline]] inline void bend_all_loop(const StarFrame& frame, double side,
-                                                 const double* psis, const double* slopes,
-                                                 const StarSources& sources, int count,
-                                                 StarViews& views) {
-  const Aberration boost = frame.from_tetrad;
-  const M33d camera = frame.tetrad_from_camera;
-  const PsiFrame psi = frame.psi;
-  for (int k = 0; k < count; ++k) {
-    const SineCosine half = sin_cos(0.5 * psis[k]);
-    const double s2 = half.sine * half.sine, c2 = half.cosine * half.cosine;
-    const double energy = std::abs(psi.sine2 * s2 + psi.cosine2 * c2);
-    const double across = 2 * half.sine * half.cosine / sources.sine[k];
-    const V3d direction(psi.outward * (c2 - s2), sources.y[k] * (side * across),
-                        sources.z[k] * (side * across));
-    receive(boost, camera, direction, 1 / energy, across * slopes[k], sources, k, views);
-  }
-}
-Dispatched<bend_all_loop> bend_all;
-
-[[gnu::always_inline]] inline void go_straight_all_loop(const StarFrame& frame,
-                                                        const StarSources& sources, int count,
-                                                        StarViews& views) {
+// Makes views of images in the frame of the tetrad.
+[[gnu::always_inline]] inline void receive_all_loop(const StarFrame& frame,
+                                                    const PointImageBatch& images,
+                                                    const StarSources& sources, int count,
+                                                    StarViews& views) {
   const Aberration boost = frame.from_tetrad;
   const M33d camera = frame.tetrad_from_camera;
   for (int k = 0; k < count; ++k)
-    receive(boost, camera, V3d(sources.x[k], sources.y[k], sources.z[k]), 1, 1, sources, k, views);
+    store_view(boost, camera, V3d(images.x[k], images.y[k], images.z[k]), images.frequency_ratio[k],
+               images.amplification[k], sources, k, views);
 }
-Dispatched<go_straight_all_loop> go_straight_all;
+Dispatched<receive_all_loop> receive_all;
 
 [[gnu::always_inline]] inline void onto_dome_loop(double scale, double middle, int count,
                                                   StarViews& views) {
@@ -183,15 +117,8 @@ void onto_any(const Projection& projection, double least_z, int count, StarViews
   }
 }
 
-// Returns the largest angle from Z in an image.
-double farthest_angle(const Projection& p) {
-  if (const auto* fisheye = std::get_if<Fisheye>(&p)) return fisheye->fov / 2;
-  if (has_zenith(p)) return pi;
-  return std::acos(direction_at(p, {0.5, 0.5}).v.z);
-}
-
 // Returns the number of pixels per radian in the middle of the frame.
-double pixels_per_radian(const Projection& p) { return 1 / central_pixel_angle(p); }
+double pixels_per_radian(const Projection& p) { return 1 / largest_pixel_angle(p); }
 
 }  // namespace
 
@@ -201,18 +128,11 @@ void find_sources(const StarFrame& frame, const SceneStars& stars, std::size_t f
                     {stars.x() + first, stars.y() + first, stars.z() + first,
                      stars.magnitude() + first, stars.flux() + first, stars.temperature() + first},
                     count, sources);
-  to_lens(count, sources);
 }
 
-void bend(const StarFrame& frame, const LensCurve& curve, double side, const StarSources& sources,
-          int count, StarViews& views) {
-  StarColumn<double> psi, slope;
-  look_up(curve.lookup(), side, sources.v.data(), count, psi.data(), slope.data());
-  bend_all(frame, side, psi.data(), slope.data(), sources, count, views);
-}
-
-void go_straight(const StarFrame& frame, const StarSources& sources, int count, StarViews& views) {
-  go_straight_all(frame, sources, count, views);
+void receive_images(const StarFrame& frame, const PointImageBatch& images,
+                    const StarSources& sources, int count, StarViews& views) {
+  receive_all(frame, images, sources, count, views);
 }
 
 StarPlane::StarPlane(const Projection& projection, double reach)
@@ -221,11 +141,11 @@ StarPlane::StarPlane(const Projection& projection, double reach)
       middle_i_((columns(projection) - 1) / 2.0),
       middle_j_((rows(projection) - 1) / 2.0) {
   half_i_ = half_j_ = HUGE_VAL;
-  if (std::holds_alternative<Domemaster>(projection)) {
+  if (is_domemaster(projection)) {
     // The middle of a blob that reaches over the rim is no farther beyond it than `reach`.
     least_z_ = -std::sin(std::min(reach, pi / 2));
     fast_dome_ = least_z_ >= kLeastCosine;
-  } else if (std::holds_alternative<Stereographic>(projection)) {
+  } else if (traits_of(projection).keeps_circles) {
     // The middle of a blob that touches the frame is no farther from it than `reach`.  The margin
     // is that angle in pixels, at the scale that the projection has as far beyond a corner.  The
     // scale is the derivative of 2 tan(theta/2), which grows like 1/cos^2(theta/2).
@@ -243,7 +163,7 @@ StarPlane::StarPlane(const Projection& projection, double reach)
 int StarPlane::place(StarViews& views, int count, int* listed) const {
   if (fast_dome_)
     onto_dome(scale_, middle_i_, count, views);
-  else if (std::holds_alternative<Stereographic>(projection_))
+  else if (traits_of(projection_).keeps_circles)
     onto_plane(scale_, middle_i_, middle_j_, count, views);
   else
     onto_any(projection_, least_z_, count, views);

@@ -1,13 +1,12 @@
 // The loops of this file take columns of many stars from the catalogue to pixels.  The compiler
-// turns them into SIMD code.  They include all effects of nature, and hold for no source on the
-// axis of the lens.
+// turns them into SIMD code.  They include all effects of nature.
 #pragma once
 
 #include <array>
 
-#include "pipeline/optics/aberration.h"
+#include "pipeline/light/aberration.h"
+#include "pipeline/light/sky_points.h"
 #include "pipeline/render/scene/scene_stars.h"
-#include "pipeline/render/stars/lens_curve.h"
 #include "projections/projection.h"
 
 namespace domefall {
@@ -18,7 +17,6 @@ inline constexpr int kStarBatch = static_cast<int>(SceneStars::kBlock);
 struct StarFrame {
   M33d sky_from_tetrad, tetrad_from_camera;
   Aberration from_tetrad{V3d(0, 0, 0)};
-  PsiFrame psi{0, 1, 1};
   // The flux of a star of magnitude m is multiplied by gain * min(1, (limit - m) * inverse_fade),
   // and by 0 from the limit on.
   double gain = 1, limit = 0, inverse_fade = 0;
@@ -28,12 +26,10 @@ template <class T>
 using StarColumn = std::array<T, kStarBatch>;
 
 // StarSources are the stars as sources of light, with their directions in the frame of the tetrad.
-struct StarSources {
-  StarColumn<double> x, y, z;            // unit vector along R, Theta, Phi
-  StarColumn<double> sine;               // of the angle from the axis
-  StarColumn<double> v;                  // v_star of LensCurve, 0 to 1
+struct StarSources : PointBatch {
   StarColumn<double> flux, temperature;  // W/m^2 and K at no redshift
 };
+static_assert(PointBatch::kSize == kStarBatch);
 
 // StarViews are images of stars as the moving camera receives them.
 struct StarViews {
@@ -61,16 +57,13 @@ inline ReceivedLight received(const Aberration& boost, const M33d& camera, const
   return {apply_transposed(camera, seen.direction), g, amplification * (g2 * g2)};
 }
 
-// Fills the sources with the stars from `first` to first + count - 1.
+// Fills the sources with the stars from `first` to first + count - 1, but for what the lens sets.
 void find_sources(const StarFrame& frame, const SceneStars& stars, std::size_t first, int count,
                   StarSources& sources);
 
-// Finds the images of the curve's even (side = 1) or odd (side = -1) order.  No source may be on
-// the axis.
-void bend(const StarFrame& frame, const LensCurve& curve, double side, const StarSources& sources,
-          int count, StarViews& views);
-// Finds the images where light goes straight.
-void go_straight(const StarFrame& frame, const StarSources& sources, int count, StarViews& views);
+// Makes views of images in the frame of the tetrad.
+void receive_images(const StarFrame& frame, const PointImageBatch& images,
+                    const StarSources& sources, int count, StarViews& views);
 
 // A StarPlane projects views to the frame's pixels.  It uses SIMD code for a stereographic image,
 // and for a Domemaster unless blobs reach farther over its rim than angle_over_sine() holds.

@@ -56,25 +56,24 @@ double AxisPassage::mean_inverse_distance(double from, double to) const {
   return (sharpness_ + 1) / 2 * sum * (to - from) / half_way_;
 }
 
-StarTrail::StarTrail(const SkyTable& table, const AxisPassage& passage, int order)
-    : passage_(passage) {
-  add_nodes(table, order, passage.begin(), passage.middle());
-  add_nodes(table, order, passage.middle(), passage.end());
-  nodes_.push_back(node_at(table, order, passage.end()));
+StarTrail::StarTrail(const ImageOf& image_of, const AxisPassage& passage) : passage_(passage) {
+  add_nodes(image_of, passage.begin(), passage.middle());
+  add_nodes(image_of, passage.middle(), passage.end());
+  nodes_.push_back(node_at(image_of, passage.end()));
 }
 
-StarTrail::Node StarTrail::node_at(const SkyTable& table, int order, double x) const {
-  const SkyImage image = image_of(&table, passage_.source(x), order, 0);
+StarTrail::Node StarTrail::node_at(const ImageOf& image_of, double x) const {
+  const SkyImage image = image_of(passage_.source(x));
   const V3d& direction = image.direction.v;
   return {x, direction, direction.dot(passage_.across(x)), image.frequency_ratio,
           image.amplification * passage_.distance(x)};
 }
 
 // Adds nodes at even steps from one x to another, but none at the end.
-void StarTrail::add_nodes(const SkyTable& table, int order, double from, double to) {
+void StarTrail::add_nodes(const ImageOf& image_of, double from, double to) {
   const int count = std::max(1, static_cast<int>(std::ceil((to - from) / kStep)));
   for (int k = 0; k < count; ++k)
-    nodes_.push_back(node_at(table, order, from + (to - from) * k / count));
+    nodes_.push_back(node_at(image_of, from + (to - from) * k / count));
 }
 
 std::size_t StarTrail::first_around(std::size_t k) const {

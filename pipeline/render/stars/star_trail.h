@@ -14,10 +14,11 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/hole_optics.h"
+#include "pipeline/light/aberration.h"
+#include "pipeline/light/sky_points.h"
 #include "pipeline/render/stars/star_loops.h"
 
 namespace domefall {
@@ -76,7 +77,9 @@ class AxisPassage {
 // amplification of a part is what the part adds to the mean.
 class StarTrail {
  public:
-  StarTrail(const SkyTable& table, const AxisPassage& passage, int order);
+  // The function returns the image of a source, without a blur.
+  using ImageOf = std::function<SkyImage(const V3d& source)>;
+  StarTrail(const ImageOf& image_of, const AxisPassage& passage);
 
   std::size_t parts() const { return nodes_.size() - 1; }
   // Returns the light of a part, as if all of it came from the middle of the part.
@@ -106,8 +109,8 @@ class StarTrail {
     double frequency_ratio;
     double strength;  // amplification times the distance from the axis, which is finite on it
   };
-  void add_nodes(const SkyTable& table, int order, double from, double to);
-  Node node_at(const SkyTable& table, int order, double x) const;
+  void add_nodes(const ImageOf& image_of, double from, double to);
+  Node node_at(const ImageOf& image_of, double x) const;
   SkyImage between(std::size_t k, double x) const;
   // These return the first of the nodes by which part k is interpolated, and the number of them.
   std::size_t first_around(std::size_t k) const;

@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/vector_math.h"
 #include "pipeline/render/stars/star_trail.h"
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/simd/vector_math.h"
 
 namespace domefall {
 namespace {

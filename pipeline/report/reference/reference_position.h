@@ -1,6 +1,6 @@
 // reference_position() says where a ray is after it has swept an angle, and when its light was
 // there, as the truth for places along rays.  It solves w'' = 3 w^2 - w, with w = 1/r, by Taylor
-// series of order 32 in 50-digit arithmetic, and shares no code with pipeline/optics.
+// series of order 32 in 50-digit arithmetic, and shares no code with pipeline/light.
 #pragma once
 
 #include "pipeline/report/reference/reference_ray.h"

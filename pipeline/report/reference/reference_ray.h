@@ -1,6 +1,6 @@
 // reference_ray() follows one light ray in 100-digit arithmetic, as the truth that the report's
 // errors are measured against.  It is written plainly, so that its accuracy comes from the digits
-// and not from a clever form.  It shares no code with pipeline/optics, whose methods it judges.
+// and not from a clever form.  It shares no code with pipeline/light, whose methods it judges.
 //
 // M = 1.  The ray's wave vector is k = u - N, where N is the direction of the view ray, at the
 // angle delta from -R, which points to the hole from outside.  Every observer has L = r sin(delta).

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
 
 namespace domefall {
 namespace {
@@ -28,6 +28,12 @@ TEST(FrameLists, AreWrittenAsRanges) {
   EXPECT_EQ(as_ranges({}), "");
   EXPECT_EQ(as_ranges({7}), "7");
   EXPECT_EQ(as_ranges({0, 1, 2, 9, 11, 12}), "0-2,9,11-12");
+  EXPECT_EQ(as_ranges({0, 10, 20, 30, 31, 32, 90}), "0-30x10,31-32,90");
+  EXPECT_EQ(as_ranges({1, 3, 5, 7, 8}), "1-7x2,8");
+  EXPECT_EQ(as_ranges({1, 3, 5, 9}), "1,3,5,9") << "three are no longer by themselves";
+  EXPECT_EQ(as_ranges({0, 5, 6, 7}), "0,5-7");
+  EXPECT_THAT(parse_frames(as_ranges({0, 10, 20, 30, 31, 32}), 40),
+              ElementsAre(0, 10, 20, 30, 31, 32));
   EXPECT_THAT(parse_frames(as_ranges({0, 1, 2, 9, 11, 12}), 13), ElementsAre(0, 1, 2, 9, 11, 12));
 }
 

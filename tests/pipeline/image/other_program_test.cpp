@@ -3,8 +3,8 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 
-#include "pipeline/image/errors.h"
-#include "pipeline/image/frame_condition.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/image/frame_check.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
 #include "tests/pipeline/image/test_folder.h"
@@ -38,9 +38,14 @@ class OtherProgram : public TestFolder {
 };
 
 TEST_F(OtherProgram, ReadsTheColoursOfAFrame) {
-  write_frame(folder_ / "f.exr", gradient<HalfFrame>(), {});
+  FrameInfo info;
+  info.title = "Grüße, a \"title\"";
+  write_frame(folder_ / "f.exr", gradient<HalfFrame>(), info);
   const auto in = OIIO::ImageInput::open((folder_ / "f.exr").string());
   ASSERT_TRUE(in) << OIIO::geterror();
+  EXPECT_EQ(in->spec().format, OIIO::TypeDesc::HALF);
+  EXPECT_EQ(in->spec().get_string_attribute("showTitle"), info.title);
+  EXPECT_EQ(in->spec().get_string_attribute("colorSpace"), "ACEScg");
   const auto* chromaticities = in->spec().find_attribute("chromaticities");
   ASSERT_TRUE(chromaticities);
   // SMPTE ST 2065-1 and the Academy's S-2014-004: AP1 and the ACES white.
@@ -90,14 +95,13 @@ TEST_F(OtherProgram, WritesNoFrameThatWeWouldKeepOrReplace) {
   const auto half = gradient<HalfFrame>();
   const auto exr = theirs("f.exr", OIIO::TypeDesc::HALF, half.pixels.data());
   const WantedFrame wanted{"", "", "", kPictureWidth, kPictureHeight};
-  EXPECT_EQ(examine_frame(exr, wanted), FrameCondition::kOther);
-  EXPECT_THAT([&] { read_frame(exr); },
-              testing::ThrowsMessage<InputError>(HasSubstr(exr.string())));
+  EXPECT_EQ(check_frame(exr, wanted).condition, FrameCondition::kOther);
+  EXPECT_THAT(message_of([&] { read_frame(exr); }), HasSubstr(exr.string()));
   const auto words = gradient<GradedFrame>();
   for (const char* name : {"g.png", "g.tif"}) {
     const auto file = theirs(name, OIIO::TypeDesc::UINT16, words.pixels.data());
-    EXPECT_EQ(examine_frame(file, wanted), FrameCondition::kOther) << name;
-    EXPECT_EQ(describe_difference(file, wanted), "an image that is not Domefall's") << name;
+    EXPECT_EQ(check_frame(file, wanted).condition, FrameCondition::kOther) << name;
+    EXPECT_EQ(check_frame(file, wanted).reason, "an image that is not Domefall's") << name;
   }
 }
 
@@ -107,9 +111,9 @@ TEST_F(OtherProgram, SeesOnlyTheKeyWeMeantWhateverTheTitle) {
   info.key = "22";
   write_graded(folder_ / "g.tif", gradient<GradedFrame>(), info, {GradedKind::kTiff16});
   WantedFrame wanted{"22", info.title, "", kPictureWidth, kPictureHeight};
-  EXPECT_EQ(examine_frame(folder_ / "g.tif", wanted), FrameCondition::kGood);
+  EXPECT_EQ(check_frame(folder_ / "g.tif", wanted).condition, FrameCondition::kGood);
   wanted.key = "00";
-  EXPECT_EQ(examine_frame(folder_ / "g.tif", wanted), FrameCondition::kOlder);
+  EXPECT_EQ(check_frame(folder_ / "g.tif", wanted).condition, FrameCondition::kOlder);
 }
 
 }  // namespace

@@ -1,19 +1,20 @@
 // What is opened for reading: regular files, and nothing that could be waited for.
-#include "pipeline/image/regular_file.h"
+#include "pipeline/base/regular_file.h"
 
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <unistd.h>
 
+#include <fstream>
 #include <functional>
+#include <string>
 
-#include "pipeline/image/csv_file.h"
-#include "pipeline/image/digest.h"
-#include "pipeline/image/errors.h"
-#include "pipeline/image/light_image.h"
-#include "pipeline/image/map_file.h"
-#include "pipeline/image/read_healpix.h"
+#include "pipeline/base/child_program.h"
+#include "pipeline/base/csv_file.h"
+#include "pipeline/base/digest.h"
+#include "pipeline/base/errors.h"
 #include "pipeline/image/read_image.h"
 #include "tests/pipeline/image/test_folder.h"
 
@@ -23,7 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::EndsWith;
 using testing::HasSubstr;
-using testing::ThrowsMessage;
 
 class RegularFiles : public TestFolder {
  protected:
@@ -64,8 +64,8 @@ TEST_F(RegularFiles, AreReadAndPipesSocketsDevicesAndFoldersAreNamedAsWhatTheyAr
                                                      {folder_, "this is a folder; only"}};
   for (const auto& reader : kReaders)
     for (const auto& other : others)
-      EXPECT_THAT([&] { reader.second(other.first); },
-                  ThrowsMessage<InputError>(HasSubstr(other.first.string() + ": " + other.second)))
+      EXPECT_THAT(message_of([&] { reader.second(other.first); }),
+                  HasSubstr(other.first.string() + ": " + other.second))
           << reader.first;
 }
 
@@ -86,8 +86,8 @@ TEST_F(RegularFiles, AreReadToTheSizeThatTheySay) {
   EXPECT_EQ(read_file(folder_ / "file", 10), "0123456789");
   EXPECT_EQ(start_of_file(folder_ / "file", 4), "0123");
   EXPECT_EQ(start_of_file(folder_ / "file", 40), "0123456789");
-  EXPECT_THAT([&] { read_file(folder_ / "file", 9); },
-              ThrowsMessage<InputError>(EndsWith("the file has 10 bytes; at most 9 can be read")));
+  EXPECT_THAT(message_of([&] { read_file(folder_ / "file", 9); }),
+              EndsWith("the file has 10 bytes; at most 9 can be read"));
   RegularFile file(folder_ / "file");
   char bytes[8];
   EXPECT_EQ(file.read(bytes, 8), 8u);
@@ -99,16 +99,34 @@ TEST_F(RegularFiles, AreReadToTheSizeThatTheySay) {
 TEST_F(RegularFiles, ThatAreMissingMayBeThereElsewhereButNotWhereTheUserNamedThem) {
   const fs::path none = folder_ / "none";
   const auto message = EndsWith("none: No such file or directory");
-  EXPECT_THAT([&] { MappedFile{none}; }, ThrowsMessage<TemporaryError>(message));
-  EXPECT_THAT([&] { Digest().add_file(none); }, ThrowsMessage<TemporaryError>(message));
-  EXPECT_THAT([&] { read_image(none); }, ThrowsMessage<TemporaryError>(message));
-  EXPECT_THAT([&] { require_file(none); }, ThrowsMessage<InputError>(message));
+  EXPECT_THAT(message_of<TemporaryError>([&] { MappedFile{none}; }), message);
+  EXPECT_THAT(message_of<TemporaryError>([&] { Digest().add_file(none); }), message);
+  EXPECT_THAT(message_of<TemporaryError>([&] { read_image(none); }), message);
+  EXPECT_THAT(message_of([&] { require_file(none); }), message);
   EXPECT_THROW(RegularFile(folder_ / std::string(300, 'x')), InputError);
   EXPECT_FALSE(is_readable_file(none));
   EXPECT_FALSE(is_readable_file(folder_));
   put(none, "");
   EXPECT_TRUE(is_readable_file(none));
   EXPECT_EQ(require_file(none), none);
+}
+
+TEST(MemoryFile, HoldsWhatItAndOthersWrite) {
+  const MemoryFile file("a test's file");
+  const std::string text(200000, 'a');
+  file.append(text);
+  std::ofstream(file.path(), std::ios::app) << "by name";
+  EXPECT_EQ(file.contents(), text + "by name");
+}
+
+TEST(MemoryFile, IsReadFromItsBeginningAfterRewind) {
+  const MemoryFile file("a test's file");
+  file.append("script");
+  char first = 0;
+  EXPECT_EQ(::read(file.number(), &first, 1), 0);
+  file.rewind();
+  EXPECT_EQ(::read(file.number(), &first, 1), 1);
+  EXPECT_EQ(first, 's');
 }
 
 }  // namespace

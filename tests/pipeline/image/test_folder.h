@@ -1,5 +1,4 @@
-// A folder of the test's own, gone with it; the tests of one program may run at the same time, in
-// processes of their own.
+// What tests with files share: a folder of the test's own, and what errors say.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,8 +9,23 @@
 #include <iterator>
 #include <string>
 
+#include "pipeline/base/errors.h"
+
 namespace domefall {
 
+// What the error of what() says, or nothing if there is none.
+template <class Error = InputError, class What>
+std::string message_of(const What& what) {
+  try {
+    what();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A folder that is gone with the test; the tests of one program may run at the same time, in processes
+// of their own.
 class TestFolder : public testing::Test {
  protected:
   TestFolder() {

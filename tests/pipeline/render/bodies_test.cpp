@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/optics/body_image.h"
+#include "pipeline/light/body_image.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/overlay/star_labels.h"
 #include "pipeline/render/scene/body_sight.h"
@@ -20,7 +20,7 @@ namespace {
 // of the first orbit; the image is small in angle, so that light adds up by pixels.
 Show show_with(double r, const Body& body) {
   Show show = show_of(StaticObserver{r}, Stereographic{201, 201, 40 * kDegree});
-  show.mass_solar = 4e6;
+  show.spacetime = Schwarzschild{4e6};
   show.timeline[0].camera.attitude = LookAtHole{};
   show.point_spread.min_sigma = 0.6 * kDegree;
   show.point_spread.max_sigma = 1 * kDegree;
@@ -77,7 +77,7 @@ TEST(Bodies, InFrontOfTheHoleAreSeenAgainstIt) {
   const Light light = light_of(body_frame(show));
   EXPECT_GT(light.sum, 0);
   const double pixels_of_hole = std::asin(std::sqrt(27.0) * std::sqrt(1 - 2 / 30.0) / 30) /
-                                central_pixel_angle(show.projection);
+                                largest_pixel_angle(show.projection);
   // The direct image has nearly all of the light, far within the silhouette.
   EXPECT_LT(std::hypot(light.x, light.y), pixels_of_hole / 3);
   EXPECT_GT(pixels_of_hole, 30);
@@ -125,7 +125,7 @@ TEST(Bodies, AreSeenByTheirRiderAroundTheHole) {
   EXPECT_GT(light_of(frame).sum, 0);
   EXPECT_EQ(frame.row(100)[3 * 100], 0);  // the body itself would be anywhere
   const double silhouette = std::asin(std::sqrt(27.0) * std::sqrt(1 - 2 / 30.0) / 30) /
-                            central_pixel_angle(show.projection);
+                            largest_pixel_angle(show.projection);
   int brightest = 100;
   for (int column = 101; column < 201; ++column)
     if (frame.row(100)[3 * column] > frame.row(100)[3 * brightest]) brightest = column;
@@ -138,12 +138,12 @@ TEST(Bodies, ThatMoveBlurWhereTheSkyStands) {
   show.timeline[0].timing = {0, 30};  // 3 M a second
   show.frames_per_second = 1;
   show.exposure.shutter = 1;
-  OpticsStore optics;
-  const int instants = instants_for(show, frame_state(show, 2), optics);
+  LensStore lenses;
+  const int instants = instants_for(show, frame_state(show, 2), lenses);
   EXPECT_GT(instants, 4);
   EXPECT_LT(instants, kMostInstants);
   show.bodies[0].magnitude = 30;
-  EXPECT_EQ(instants_for(show, frame_state(show, 2), optics), 1);
+  EXPECT_EQ(instants_for(show, frame_state(show, 2), lenses), 1);
 }
 
 // The area (sr) of the pixels that are brighter than half of the brightest.
@@ -154,7 +154,7 @@ double bright_area(const FloatImage& frame, const Projection& projection) {
   for (int row = 0; row < frame.height; ++row)
     for (int column = 0; column < frame.width; ++column)
       if (frame.row(row)[3 * column] > most / 2) ++count;
-  const double side = central_pixel_angle(projection);
+  const double side = largest_pixel_angle(projection);
   return count * side * side;
 }
 

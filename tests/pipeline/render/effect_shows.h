@@ -19,10 +19,8 @@ inline HalfFrame render(const Show& show) { return Renderer(show, 1).render(fram
 struct Traced {
   explicit Traced(const Show& show)
       : state(frame_state(show, 0)),
-        optics(make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true, true})),
-        tracer(state, optics, show.effects) {}
+        tracer(state, WantedSkies{{true, true, true}, true}, show.effects) {}
   FrameState state;
-  HoleOptics optics;
   ViewTracer tracer;
 };
 

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "pipeline/colour/blackbody.h"
+#include "pipeline/sources/colour/blackbody.h"
 #include "tests/pipeline/render/effect_shows.h"
-#include "tests/pipeline/sky/grid_is_even.h"
+#include "tests/pipeline/sources/sky/grid_is_even.h"
 #include "tests/sanitized.h"
 
 namespace domefall {
@@ -47,7 +47,7 @@ TEST(Effects, AberrationMovesTheSkyByTheHalfAngleAndItsLackByNothing) {
     // one that is seen by [Riazuelo] eq. zkin.
     EXPECT_NEAR(unmoved.frequency_ratio, kGamma * (1 + kV * m.dot(kAhead)), 1e-14);
     EXPECT_NEAR(moved.frequency_ratio, 1 / (kGamma * (1 - kV * m.dot(kAhead))), 1e-14);
-    EXPECT_NEAR(unmoved.radial_scale, 1, 1e-15);
+    EXPECT_NEAR(unmoved.scale_along, 1, 1e-15);
   }
 }
 
@@ -78,7 +78,7 @@ void expect_ratios(const Show& moving, double facing,
       const SkyDirection sky{apply(sky_from_tetrad, m)};
       // A polar disc has another colour.  Where a border crosses a pixel, its light square may lie
       // to the side that is shifted more.
-      if (std::abs(sky.v.z) > 0.99 || !grid_is_even(sky, central_pixel_angle(p))) continue;
+      if (std::abs(sky.v.z) > 0.99 || !grid_is_even(sky, largest_pixel_angle(p))) continue;
       ++compared;
       const double cosine = m.dot(kAhead);
       for (int c = 0; c < 3; ++c) {
@@ -151,7 +151,7 @@ TEST(Effects, WithoutAberrationEveryPlaceKeepsItsFrequencyAndOnlyStandsElsewhere
     show.effects = kNoAberration;
     const Traced resting(show);
     const ObserverState &o = nature.state.observer, &r = resting.state.observer;
-    const V3d rest = vantage_of(o, {}).rest;
+    const V3d rest = viewer_of(o, {}).rest;
     for (int k = 0; k < 100; ++k) {
       const CameraDirection n{random_direction(random)};
       const ViewRay there = nature.tracer.trace(n);
@@ -163,8 +163,8 @@ TEST(Effects, WithoutAberrationEveryPlaceKeepsItsFrequencyAndOnlyStandsElsewhere
       // all.
       if (there.to_edge < 1e-6 || here.to_edge < 1e-6) continue;
       ASSERT_EQ(here.sky, there.sky);
-      const double scale = 1 + there.radial_scale + there.tangential_scale + here.radial_scale +
-                           here.tangential_scale;
+      const double scale =
+          1 + there.scale_along + there.scale_across + here.scale_along + here.scale_across;
       EXPECT_LT((here.sky_direction - there.sky_direction).length(), 1e-11 * scale);
       EXPECT_NEAR(here.frequency_ratio / there.frequency_ratio, 1, 1e-8);
     }
@@ -185,7 +185,7 @@ TEST(Effects, TheBatchTracesWhatTheSingleRayTraces) {
       for (int k = 0; k < ViewRayBatch::kSize; ++k) {
         const ViewRay ray = traced.tracer.trace(n[static_cast<std::size_t>(k)]);
         ASSERT_EQ(batch.sky[k], ray.sky);
-        const double scale = 1 + ray.radial_scale + ray.tangential_scale;
+        const double scale = 1 + ray.scale_along + ray.scale_across;
         ASSERT_LT((batch.sky_direction(k) - ray.sky_direction).length(), 4e-15 * scale);
         ASSERT_NEAR(batch.frequency_ratio[k] / ray.frequency_ratio, 1, 1e-12);
       }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "pipeline/optics/traced_ray.h"
-#include "pipeline/sky/maps/orientation.h"
+#include "pipeline/light/traced_ray.h"
+#include "pipeline/sources/sky/orientation.h"
 #include "tests/pipeline/render/scenes.h"
 #include "trajectories/equatorial.h"
 

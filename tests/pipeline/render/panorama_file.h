@@ -5,11 +5,11 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <string>
 #include <vector>
+
+#include "pipeline/base/temporary_file.h"
 
 namespace domefall {
 
@@ -19,9 +19,7 @@ class PanoramaFile {
  public:
   // value(k) is the number at k in an array [width / 2][width][3].
   template <class Value>
-  PanoramaFile(const std::string& name, int width, Value value)
-      : path_(std::filesystem::temp_directory_path() /
-              ("domefall_" + name + "_" + std::to_string(getpid()) + ".exr")) {
+  PanoramaFile(int width, Value value) {
     std::vector<float> rgb;
     for (int k = 0; k < width * width / 2 * 3; ++k) rgb.push_back(value(k));
     Imf::Header header(width, width / 2);
@@ -33,21 +31,15 @@ class PanoramaFile {
       buffer.insert(names[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(rgb.data() + c), pixel,
                                          pixel * static_cast<std::size_t>(width)));
     }
-    Imf::OutputFile file(path_.c_str(), header);
+    Imf::OutputFile file(path().c_str(), header);
     file.setFrameBuffer(buffer);
     file.writePixels(width / 2);
   }
-  ~PanoramaFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  PanoramaFile(const PanoramaFile&) = delete;
-  PanoramaFile& operator=(const PanoramaFile&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path path() const { return folder_ / "panorama.exr"; }
 
  private:
-  std::filesystem::path path_;
+  ScratchFolder folder_;
 };
 
 }  // namespace domefall

@@ -11,8 +11,8 @@
 
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/show/attitude.h"
-#include "pipeline/show/read_show.h"
-#include "pipeline/sky/catalogue/read_star_catalogue.h"
+#include "pipeline/show/file/read_show.h"
+#include "pipeline/sources/stars/star_catalogue.h"
 #include "tests/source_tree.h"
 
 namespace domefall {
@@ -33,16 +33,7 @@ inline Show figure(const std::string& label) {
 class Panel {
  public:
   Panel(const Show& show, int frame)
-      : state(frame_state(show, frame)),
-        optics(make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, false})),
-        tracer(state, optics, show.effects) {}
-
-  // The tracer refers to the optics beside it.
-  Panel(const Panel&) = delete;
-  Panel& operator=(const Panel&) = delete;
-  Panel(Panel&&) = delete;
-  Panel& operator=(Panel&&) = delete;
-  ~Panel() = default;
+      : state(frame_state(show, frame)), tracer(state, WantedSkies{}, show.effects) {}
 
   PixelPosition pixel(double x, double y) const {
     return {0.5 + x * columns(state.projection), 0.5 + y * rows(state.projection)};
@@ -60,8 +51,8 @@ class Panel {
   // primary image.
   V3d image(const V3d& sky, int order) const {
     const V3d source = apply_transposed(state.observer.sky_from_tetrad, sky);
-    const SkyTable* table = optics.home_sky ? &*optics.home_sky : nullptr;
-    const V3d in_tetrad = image_of(table, source, order, 1e-9).direction.v;
+    const auto points = tracer.lens()->points(own_sky(state.observer.tetrad), {});
+    const V3d in_tetrad = points->image(source, order, 1e-9).direction.v;
     return in_camera(to_observer(state.observer.celerity, in_tetrad).direction);
   }
   V3d hole() const {
@@ -83,7 +74,6 @@ class Panel {
   }
 
   FrameState state;
-  HoleOptics optics;
   ViewTracer tracer;
 };
 

@@ -1,7 +1,7 @@
 // The captions of those figures of [Riazuelo] that have no orbit in them, held against the shows of
 // shows/paper/.  Tolerances are half of a caption's last digit where no other reason is given.
-#include "pipeline/optics/silhouette.h"
-#include "pipeline/sky/grid_sky.h"
+#include "pipeline/light/silhouette.h"
+#include "pipeline/sources/sky/formula_sky.h"
 #include "tests/pipeline/render/paper_figures.h"
 
 namespace domefall {
@@ -160,7 +160,7 @@ TEST(PaperFigDev3, OneBrightRingAroundTheSilhouetteAndAThinOneAtItsEdge) {
   };
   const auto magnified = [&](double beyond) {
     const ViewRay ray = near.tracer.trace({at(beyond)});
-    return 1 / (ray.radial_scale * ray.tangential_scale);
+    return 1 / (ray.scale_along * ray.scale_across);
   };
   double largest = 0, ring = 0;
   for (double beyond = 1e-4; beyond < 0.02; beyond += 1e-5)
@@ -178,8 +178,8 @@ TEST(PaperFigDev3, OneBrightRingAroundTheSilhouetteAndAThinOneAtItsEdge) {
   EXPECT_GT(magnified(einstein + kOneDegree), 2);
   // Farther from the hole the light is slightly fainter than without it.
   const ViewRay corner = far.trace(0, 0);
-  EXPECT_LT(1 / (corner.radial_scale * corner.tangential_scale), 1);
-  EXPECT_GT(1 / (corner.radial_scale * corner.tangential_scale), 0.9);
+  EXPECT_LT(1 / (corner.scale_along * corner.scale_across), 1);
+  EXPECT_GT(1 / (corner.scale_along * corner.scale_across), 0.9);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The captions of [Riazuelo] on stars and their ghosts, held against the shows of shows/paper/.
-#include "pipeline/optics/silhouette.h"
-#include "pipeline/sky/catalogue/read_star_catalogue.h"
+#include "pipeline/light/silhouette.h"
+#include "pipeline/light/sky_table.h"
+#include "pipeline/sources/stars/star_catalogue.h"
 #include "tests/pipeline/render/paper_figures.h"
 
 namespace domefall {

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "pipeline/image/errors.h"
-#include "pipeline/render/frame_key.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/light/hole_optics.h"
 #include "pipeline/render/rays/view_tracer.h"
-#include "pipeline/show/observer_track.h"
 #include "tests/pipeline/render/scenes.h"
 #include "tests/sanitized.h"
 
@@ -129,8 +128,7 @@ TEST(Renderer, DrawsNothingOutsideTheDomeAndNothingInTheSilhouette) {
   const Show show = starry(show_of(StaticObserver{4}, Domemaster{256}));
   const FrameState state = frame_state(show, 0);
   const HalfFrame frame = Renderer(show, 2).render(state);
-  const HoleOptics optics = make_hole_optics(4, Tetrad::kRain, {});
-  const ViewTracer tracer(state, optics);
+  const ViewTracer tracer(state, WantedSkies{});
   int dark = 0, outside = 0;
   for (int y = 0; y < 256; ++y)
     for (int x = 0; x < 256; ++x) {
@@ -243,83 +241,6 @@ TEST(Renderer, TabulatesEmissionTimesForRingsOnly) {
   EXPECT_GT(rings.table_nodes, grid.table_nodes);
   const HoleOptics optics = make_hole_optics(20, Tetrad::kRain, {true, false, true});
   EXPECT_FALSE(optics.emission_times);
-}
-
-TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
-  Show show = show_of(StaticObserver{10}, Domemaster{64});
-  show.sky[SkyRegion::kIV].background = RingsSky{4};
-  const std::string key = FrameKeys(show).scene(frame_state(show, 0));
-  FrameState later = frame_state(show, 0);
-  later.observer.null_time = 1;
-  EXPECT_NE(FrameKeys(show).scene(later), key);
-  Show other = show;
-  other.sky[SkyRegion::kIV].background = RingsSky{5};
-  EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
-  show.sky[SkyRegion::kIV].background = GridSky{};
-  EXPECT_EQ(FrameKeys(show).scene(later), FrameKeys(show).scene(frame_state(show, 0)));
-}
-
-// Stars near the axis are drawn by how fast the sky turns, so two shows that pass one instant at
-// different speeds have different frames there.
-TEST(FrameKeys, KnowHowFastTheSkyTurns) {
-  Show show = show_of(CircularOrbit{10}, Domemaster{64});
-  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "stars_to_9.stars", 6.5};
-  show.timeline[0].timing = {0, 10};
-  Show faster = show;
-  faster.timeline[0].timing = {0, 20};
-  join_segments(show);
-  join_segments(faster);
-  const auto key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 0)); };
-  EXPECT_NE(key(show), key(faster));
-}
-
-TEST(FrameKeys, KnowHowStarsAreDrawn) {
-  Show show = show_of(StaticObserver{10}, Domemaster{64});
-  const auto key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 0)); };
-  Show other = show;
-  other.point_spread.white_core = 10;
-  EXPECT_NE(key(other), key(show));
-  other = show;
-  other.star_saturation = 0.5;
-  EXPECT_NE(key(other), key(show));
-  other = show;
-  other.least_star_radius *= 2;
-  EXPECT_NE(key(other), key(show));
-  other = show;
-  other.point_spread.halo_sigma = 0.01;  // without a halo it has no effect
-  EXPECT_EQ(key(other), key(show));
-  other.point_spread.halo = 0.1;
-  EXPECT_NE(key(other), key(show));
-  Show wider = other;
-  wider.point_spread.halo_sigma = 0.02;
-  EXPECT_NE(key(wider), key(other));
-}
-
-TEST(FrameKeys, AreOfAllThatAFrameDependsOnAndNothingElse) {
-  const Show show = starry(show_of(StaticObserver{10}, Domemaster{64}));
-  const FrameState state = frame_state(show, 0);
-  const std::string key = FrameKeys(show).scene(state);
-  EXPECT_EQ(FrameKeys(show).scene(state), key);
-  EXPECT_NE(FrameKeys(show).scene(frame_state(show, 1)), key);
-
-  Show other = show;
-  other.exposure.ev = 0.5;
-  EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
-  other = show;
-  other.sky[SkyRegion::kI].stars->max_magnitude = 5;
-  EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
-  other = show;
-  other.timeline[0].camera.roll = 0.1;
-  EXPECT_NE(FrameKeys(other).scene(frame_state(other, 0)), key);
-
-  other = show;
-  other.sky[SkyRegion::kIII].background_gain = 2;
-  EXPECT_EQ(FrameKeys(other).scene(frame_state(other, 0)), key) << "not seen from outside";
-  other = show;
-  Segment later = show.timeline[0];
-  later.trajectory = StaticObserver{5};
-  other.timeline.push_back(later);
-  EXPECT_EQ(FrameKeys(other).scene(frame_state(other, 0)), key) << "another segment";
 }
 
 }  // namespace

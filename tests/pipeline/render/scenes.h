@@ -19,7 +19,7 @@ inline const std::string kTestAssets = source_file("shows/assets/");
 // A small panorama of a few clouds, which costs little time to read.  Its file is removed with the
 // process.
 inline std::filesystem::path small_panorama() {
-  static const PanoramaFile panorama("clouds", 128, [](int k) {
+  static const PanoramaFile panorama(128, [](int k) {
     return static_cast<float>(1 + std::sin(k * 0.05) * std::cos(k * 0.0007)) / 2 + 0.1f;
   });
   return panorama.path();
@@ -27,6 +27,7 @@ inline std::filesystem::path small_panorama() {
 
 inline Show show_of(const Trajectory& trajectory, const Projection& projection) {
   Show show;
+  if (reach(trajectory).first != kFlatSpace) show.spacetime = Schwarzschild{};
   show.projection = projection;
   show.output.graded.reset();
   show.hole_at = {V3d(-0.0547, -0.872, -0.484).normalized()};
@@ -57,14 +58,42 @@ inline FramePlan plan_with(const Show& show, const FrameState& state,
   return plan;
 }
 
-inline FrameScene scene_with(const Show& show, const FrameState& state, const HoleOptics& optics,
+inline FrameScene scene_with(const Show& show, const FrameState& state,
                              const PerSky<const Sky*>& skies = {}, const SkyMotion& motion = {}) {
-  return FrameScene(show, state, plan_with(show, state, skies), optics, skies, motion);
+  return FrameScene(show, state, plan_with(show, state, skies),
+                    lens_of(state.observer, WantedSkies{}, show.effects), skies, motion);
+}
+
+inline HalfFrame frame_of(const Show& show, int number = 0) {
+  return Renderer(show, 1).render(frame_state(show, number));
+}
+
+// Where the audience's azimuth and elevation are, for a dome that is level: the zenith in the
+// middle, the front at the bottom, the right hand at the right.
+inline CameraDirection on_dome(double azimuth_deg, double elevation_deg) {
+  const double a = azimuth_deg * kDegree, e = elevation_deg * kDegree;
+  return {{std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)}};
 }
 
 inline V3d random_direction(std::mt19937& random) {
   std::normal_distribution<double> normal;
   return V3d(normal(random), normal(random), normal(random)).normalized();
+}
+
+// Holds the derivative that a ray has against the places of two rays beside it, `step` radians to
+// either side of it, in the direction `way`.  The error is of the second order in the step, and of
+// the rounding of places over the step.
+inline void expect_derivative_of_neighbours(const ViewTracer& tracer, const V3d& n, const V3d& way,
+                                            double step) {
+  const V3d across = (way - n * n.dot(way)).normalized();
+  const ViewRay ray = tracer.trace({n});
+  const ViewRay ahead = tracer.trace({(n + across * step).normalized()});
+  const ViewRay behind = tracer.trace({(n - across * step).normalized()});
+  if (!ray.known || !ahead.known || !behind.known || ray.to_edge < 1e-2) return;
+  EXPECT_NEAR(ray.axis.length(), 1, 1e-10);
+  EXPECT_NEAR(ray.axis.dot(n), 0, 1e-10);
+  const V3d moved = (ahead.sky_direction - behind.sky_direction) / (2 * step);
+  EXPECT_LT((ray.moved(n, across) - moved).length(), 1e-5 * (1 + ray.longer()));
 }
 
 }  // namespace domefall

@@ -58,9 +58,13 @@ TEST(Shutter, TakesAsManyInstantsAsTheMotionNeeds) {
   instant.exposure.shutter = 0;
   Renderer renderer(instant, 2);
   MeanFrame mean;
-  for (FrameState& state : exposure_states(show, 10, 200)) mean.add(renderer.render(state));
-  HalfFrame reference(256, 256);
-  mean.store(reference);
+  LayeredHalfFrame whole;
+  for (const FrameState& state : exposure_states(show, frame_state(show, 10), 200)) {
+    renderer.render(state, whole);
+    mean.add(whole);
+  }
+  mean.store(whole);
+  const HalfFrame& reference = whole.picture;
   const double peak = brightest(reference);
   for (std::size_t k = 0; k < reference.pixels.size(); ++k)
     ASSERT_NEAR(streaked.pixels[k], reference.pixels[k], 0.01 * peak)
@@ -97,17 +101,18 @@ TEST(Shutter, IsOpenAboutTheInstantAndNotAcrossACut) {
   Show show = turning(1, Domemaster{64});
   show.timeline.push_back(show.timeline[0]);
   show.exposure.shutter = 0.5;
-  const auto states = exposure_states(show, 10, 4);
+  const auto states = exposure_states(show, frame_state(show, 10), 4);
   ASSERT_EQ(states.size(), 4u);
   const double frame = 1 / 30.0;
   for (int k = 0; k < 4; ++k)
     EXPECT_NEAR(states[static_cast<std::size_t>(k)].show_time_s,
                 10 * frame + (k - 1.5) / 4 * 0.5 * frame, 1e-12);
-  for (const FrameState& state : exposure_states(show, 30, 8)) {
+  for (const FrameState& state : exposure_states(show, frame_state(show, 30), 8)) {
     EXPECT_EQ(state.segment, 1);
     EXPECT_GE(state.show_time_s, 1.0);
   }
-  for (const FrameState& state : exposure_states(show, 59, 8)) EXPECT_LE(state.show_time_s, 2.0);
+  for (const FrameState& state : exposure_states(show, frame_state(show, 59), 8))
+    EXPECT_LE(state.show_time_s, 2.0);
 }
 
 TEST(Shutter, EntersTheKeysOfFrames) {

@@ -11,8 +11,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/sky/maps/sky_pyramid.h"
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/sources/sky/sky_pyramid.h"
 
 namespace domefall {
 
@@ -21,9 +21,7 @@ class ScopedSimd {
   explicit ScopedSimd(Simd level) : before_(simd_in_use()) { use_simd(level); }
   ~ScopedSimd() { use_simd(before_); }
   ScopedSimd(const ScopedSimd&) = delete;
-  ScopedSimd(ScopedSimd&&) = delete;
   ScopedSimd& operator=(const ScopedSimd&) = delete;
-  ScopedSimd& operator=(ScopedSimd&&) = delete;
 
  private:
   Simd before_;

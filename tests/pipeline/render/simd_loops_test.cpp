@@ -5,11 +5,11 @@
 
 #include <bit>
 
-#include "pipeline/colour/blackbody.h"
+#include "pipeline/base/simd/half_row.h"
 #include "pipeline/render/blobs/ellipse_blob.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/sky/sky_sampler.h"
-#include "pipeline/simd/half_row.h"
+#include "pipeline/sources/colour/blackbody.h"
 #include "tests/pipeline/render/blobs/drawn_blobs.h"
 #include "tests/pipeline/render/simd_levels.h"
 #include "tests/pipeline/render/stars/star_scene.h"
@@ -143,12 +143,12 @@ Bytes rays_of(const ViewTracer& tracer, const std::vector<CameraDirection>& n) {
   // A ray from a sky without a table leaves most columns as they are.
   for (auto* column :
        {&b.sky_x, &b.sky_y, &b.sky_z, &b.along_x, &b.along_y, &b.along_z, &b.frequency_ratio,
-        &b.radial_scale, &b.tangential_scale, &b.to_edge, &b.emission_time, &b.time_scale})
+        &b.scale_along, &b.scale_across, &b.to_edge, &b.emission_time, &b.time_scale})
     column->fill(0);
   tracer.trace(n.data(), count, b);
   for (const auto* column :
        {&b.sky_x, &b.sky_y, &b.sky_z, &b.along_x, &b.along_y, &b.along_z, &b.frequency_ratio,
-        &b.radial_scale, &b.tangential_scale, &b.to_edge, &b.emission_time, &b.time_scale})
+        &b.scale_along, &b.scale_across, &b.to_edge, &b.emission_time, &b.time_scale})
     bytes.add(column->data(), n.size());
   bytes.add(b.sky.data(), n.size());
   return bytes;
@@ -159,9 +159,7 @@ TEST_P(SimdLoops, TracesTheSameRays) {
   for (const Trajectory& trajectory : loop_trajectories()) {
     const Show show = show_of(trajectory, Domemaster{64});
     const FrameState state = frame_state(show, 0);
-    const HoleOptics optics =
-        make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true, true});
-    const ViewTracer tracer(state, optics);
+    const ViewTracer tracer(state, WantedSkies{{true, true, true}, true});
     for (const std::size_t count : {128, 127, 61, 3, 1}) {
       std::vector<CameraDirection> n(count);
       for (auto& direction : n) direction.v = random_direction(random);
@@ -196,10 +194,10 @@ Bytes images_at(const Trajectory& trajectory, const SceneStars& stars) {
     for (const SkyRegion sky : kExteriorSkies) state.settings.sky[sky].max_magnitude = 99;
     state.settings.ev = 8;
     const ObserverState& o = state.observer;
-    const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {});
-    const FrameScene scene = scene_with(show, state, optics);
-    for (const SkyRegion sky : optics.skies())
-      if (optics.table_of(sky) || is_flat(o))
+    const FrameScene scene = scene_with(show, state);
+    const SkyRegion own = own_sky(o.tetrad);
+    for (const SkyRegion sky : {own, own == SkyRegion::kI ? SkyRegion::kIII : SkyRegion::kI})
+      if (scene.tracer.lens()->points(sky, {}))
         bytes.add(all_images(StarImageFinder(scene, sky), stars));
   }
   return bytes;
@@ -214,10 +212,12 @@ TEST_P(SimdLoops, FindsTheSameImagesOfStars) {
   EXPECT_GT(bytes, 10000 * sizeof(StarImage));
 }
 
-Bytes views_of(const StarFrame& frame, const SkyTable* lens, const SceneStars& stars, int count) {
+Bytes views_of(const StarFrame& frame, const SkyPoints& points, const SceneStars& stars,
+               int count) {
   Bytes bytes;
   StarSources s;
   find_sources(frame, stars, kStarBatch, count, s);
+  points.locate(s, count);
   const auto number = static_cast<std::size_t>(count);
   for (const auto* column : {&s.x, &s.y, &s.z, &s.sine, &s.v, &s.flux, &s.temperature})
     bytes.add(column->data(), number);
@@ -232,15 +232,11 @@ Bytes views_of(const StarFrame& frame, const SkyTable* lens, const SceneStars& s
     }
   };
   StarViews views;
-  go_straight(frame, s, count, views);
-  place(views);
-  if (!lens) return bytes;
-  for (const int pair : {0, 1}) {
-    const LensCurve curve(*lens, pair, 64, {});
-    for (const double side : {1.0, -1.0}) {
-      bend(frame, curve, side, s, count, views);
-      place(views);
-    }
+  PointImageBatch images;
+  for (int order = 0; order < std::min(points.orders_in_batches(), 4); ++order) {
+    points.images(order, s, count, images);
+    receive_images(frame, images, s, count, views);
+    place(views);
   }
   return bytes;
 }
@@ -250,21 +246,21 @@ TEST_P(SimdLoops, BendsTheSameLight) {
   for (const Trajectory& trajectory : loop_trajectories()) {
     const FrameState state = frame_state(show_of(trajectory, Domemaster{64}), 0);
     const ObserverState& o = state.observer;
-    const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {});
-    const SkyTable* lens = optics.home_sky ? &*optics.home_sky : nullptr;
-    StarFrame frame{o.sky_from_tetrad, o.tetrad_from_camera, Aberration(-o.celerity), {0, 1, 1}};
+    StarFrame frame{o.sky_from_tetrad, o.tetrad_from_camera, Aberration(-o.celerity)};
     frame.gain = 1e3, frame.limit = 5.5, frame.inverse_fade = 2;
-    if (lens) frame.psi = psi_frame(*lens);
+    const auto lens = lens_of(o, WantedSkies{}, {});
+    const auto points = lens->points(own_sky(o.tetrad), PointTolerance{});
+    if (!points) continue;
     for (const int count : {kStarBatch, kStarBatch - 1, 13, 1})
       compare("observer " + std::to_string(trajectory.index()) + ", " + std::to_string(count),
-              [&] { return views_of(frame, lens, stars, count); });
+              [&] { return views_of(frame, *points, stars, count); });
   }
 }
 
 TEST_P(SimdLoops, SeesTheSameTrails) {
   const SkyTable table = *make_hole_optics(10, Tetrad::kRain, {}).home_sky;
   const AxisPassage passage(V3d(-1, 0.003, 0.001), V3d(0, -0.04, 0.02), 1e-5, 3.7);
-  const StarTrail trail(table, passage, 1);
+  const StarTrail trail([&](const V3d& at) { return image_of(&table, at, 1, 0); }, passage);
   const Aberration boost(V3d(0.3, -0.8, 0.1));
   const FrameState state = frame_state(show_of(StaticObserver{}, Domemaster{64}), 0);
   for (const int count : {kStarBatch, kStarBatch - 1, 13, 1})
@@ -302,7 +298,7 @@ TEST_P(SimdLoops, PlacesAndDrawsTheSameBlobs) {
     std::uniform_real_distribution<double> width(0.9, 2);
     std::vector<double> sigma;
     for (std::size_t k = 0; k < images.size(); ++k)
-      sigma.push_back(width(random) * central_pixel_angle(p));
+      sigma.push_back(width(random) * largest_pixel_angle(p));
     compare("places", [&] {
       std::vector<EllipseBlob> blobs(images.size());
       std::vector<int> first_row(images.size());

@@ -1,10 +1,11 @@
 #include <set>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/temporary_file.h"
 #include "pipeline/render/sky/ray_grid.h"
 #include "pipeline/render/sky/sky_pass.h"
-#include "pipeline/simd/dispatch.h"
-#include "pipeline/sky/maps/sky_file.h"
+#include "pipeline/sources/sky/sky_file.h"
 #include "tests/pipeline/render/scenes.h"
 #include "tests/pipeline/render/simd_levels.h"
 
@@ -57,39 +58,22 @@ class SimdFrames : public SimdLevel {};
 INSTANTIATE_TEST_SUITE_P(Every, SimdFrames, kLevels, level_name);
 
 // A map in a file that goes with the process.
-class NoisyFile {
- public:
-  explicit NoisyFile(SkyMapKind kind)
-      : path_(std::filesystem::temp_directory_path() /
-              ("domefall_simd_" + std::to_string(getpid()) +
-               (kind == SkyMapKind::kThermal ? "_thermal.sky" : "_colour.sky"))) {
-    NewSkyFile file(path_, kind, kind == SkyMapKind::kThermal ? 1e-9 : 1e-7, 128, {});
-    noise(file.pyramid());
-    file.finish();
-  }
-  ~NoisyFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  NoisyFile(const NoisyFile&) = delete;
-  NoisyFile(NoisyFile&&) = delete;
-  NoisyFile& operator=(const NoisyFile&) = delete;
-  NoisyFile& operator=(NoisyFile&&) = delete;
-
-  PanoramaSky sky() const { return {path_}; }
-
- private:
-  std::filesystem::path path_;
-};
-
-PanoramaSky colour_sky() {
-  static const NoisyFile file(SkyMapKind::kColour);
-  return file.sky();
+PanoramaSky noisy_sky(SkyMapKind kind, const std::string& name, double unit) {
+  static const ScratchFolder folder;
+  NewSkyFile file(folder / name, kind, unit, 128, {});
+  noise(file.pyramid());
+  file.finish();
+  return {folder / name};
 }
 
-PanoramaSky thermal_sky() {
-  static const NoisyFile file(SkyMapKind::kThermal);
-  return file.sky();
+const PanoramaSky& colour_sky() {
+  static const PanoramaSky sky = noisy_sky(SkyMapKind::kColour, "colour.sky", 1e-7);
+  return sky;
+}
+
+const PanoramaSky& thermal_sky() {
+  static const PanoramaSky sky = noisy_sky(SkyMapKind::kThermal, "thermal.sky", 1e-9);
+  return sky;
 }
 
 // Panoramas, thermal maps and stars, for observers of all kinds.
@@ -101,7 +85,7 @@ std::vector<std::pair<std::string, Show>> scenes(const Projection& projection) {
     show.sky[SkyRegion::kIV].background = four;
     return show;
   };
-  const PanoramaSky colour = colour_sky(), thermal = thermal_sky();
+  const PanoramaSky &colour = colour_sky(), &thermal = thermal_sky();
   const BlackSky black;
   const GridSky grid;
   Show haloes = with(StaticObserver{7}, colour, black, black);
@@ -158,10 +142,8 @@ TEST_P(SimdFrames, MakesTheSameFramesInOtherProjections) {
 
 Bytes grid_of(const Show& show, const SkyMap& map) {
   const FrameState state = frame_state(show, 0);
-  const double r = is_flat(state.observer) ? kFlatSpace : state.observer.r;
-  const HoleOptics optics = make_hole_optics(r, state.observer.tetrad, {});
   const Sky sky{std::make_shared<const SkyMap>(map), nullptr, {}};
-  const FrameScene scene = scene_with(show, state, optics, {&sky, &sky, nullptr});
+  const FrameScene scene = scene_with(show, state, {&sky, &sky, nullptr});
   const PixelShader shader(scene);
   RayGrid grid;
   grid.make(shader, special_directions(scene));

@@ -23,10 +23,7 @@ TEST_P(ExtremeCases, StaysWithinItsBound) {
 std::string case_name(const testing::TestParamInfo<ExtremeCase>& info) { return info.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(Rays, ExtremeCases, testing::ValuesIn(extreme_rays()), case_name);
-INSTANTIATE_TEST_SUITE_P(Images, ExtremeCases, testing::ValuesIn(extreme_images()), case_name);
 INSTANTIATE_TEST_SUITE_P(Frames, ExtremeCases, testing::ValuesIn(extreme_frames()), case_name);
-INSTANTIATE_TEST_SUITE_P(FrameErrors, ExtremeCases, testing::ValuesIn(extreme_frame_errors()),
-                         case_name);
 
 }  // namespace
 }  // namespace domefall

@@ -2,11 +2,57 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/report/frame_timing.h"
+#include "pipeline/report/made_up_stars.h"
+
 namespace domefall {
 namespace {
+
+GradedFrame even_frame(int size, std::uint16_t value) {
+  GradedFrame frame(size, size);
+  std::fill(frame.pixels.begin(), frame.pixels.end(), value);
+  return frame;
+}
+
+TEST(FrameDifference, IsTheRootOfTheMeanSquareAndTheWorst) {
+  const Projection flat = Stereographic{4, 4, 1};
+  const GradedFrame black = even_frame(4, 0);
+  GradedFrame one_white = black;
+  one_white.row(2)[5] = 65535;
+  const FrameDifference d = difference(one_white, black, flat);
+  EXPECT_DOUBLE_EQ(d.rms, std::sqrt(1.0 / 48));
+  EXPECT_DOUBLE_EQ(d.worst, 1);
+}
+
+TEST(FrameDifference, LeavesOutWhatIsOutsideTheDome) {
+  const GradedFrame black = even_frame(16, 0);
+  GradedFrame corner = black;
+  corner.row(0)[0] = 65535;
+  EXPECT_EQ(difference(corner, black, Domemaster{16}).worst, 0);
+  EXPECT_EQ(difference(corner, black, Stereographic{16, 16, 1}).worst, 1);
+}
+
+TEST(TimedFrames, AreThoseThatTheRendererMakes) {
+  Show show;
+  show.projection = Domemaster{64};
+  show.sky[SkyRegion::kI].background = GridSky{};
+  Segment segment;
+  segment.duration_s = 1;
+  segment.trajectory = StaticObserver{10};
+  show.timeline = {segment};
+  const TimedFrame timed = time_frame(show, {2, false}, 1, {3, 1});
+  const HalfFrame frame = Renderer(show, 1, {2, false}).render(frame_state(show, 0));
+  ASSERT_EQ(timed.frame.pixels.size(), frame.pixels.size());
+  for (std::size_t k = 0; k < frame.pixels.size(); ++k)
+    ASSERT_EQ(timed.frame.pixels[k].bits(), frame.pixels[k].bits());
+  EXPECT_GT(timed.seconds, 0);
+  EXPECT_TRUE(std::isfinite(timed.seconds));
+  EXPECT_GT(copy_seconds(timed.frame), 0);
+}
 
 const FrameCosts& quick_costs() {
   static const FrameCosts costs = measure_frame_costs(true);
@@ -83,6 +129,45 @@ TEST(FrameCosts, OfThePapersPictureComeWithItsErrors) {
   EXPECT_LT(usual.rms, twice.rms);
   EXPECT_GT(four_times.rms, 0);
   EXPECT_GT(usual.seconds, 0);
+}
+
+TEST(MadeUpStars, AreAsManyByMagnitudeAsTycho2Has) {
+  const RawCatalogue catalogue = made_up_stars(200'000);
+  const auto brighter = [&](float v) {
+    return std::count_if(catalogue.stars.begin(), catalogue.stars.end(),
+                         [v](const CatalogueStar& star) { return star.v <= v; });
+  };
+  EXPECT_NEAR(static_cast<double>(brighter(6.5F)), 8805, 1);
+  EXPECT_NEAR(static_cast<double>(brighter(9)), 130720, 1);
+  EXPECT_DOUBLE_EQ(magnitude_of_rank(1), -1.5);
+  EXPECT_DOUBLE_EQ(magnitude_of_rank(kMostMadeUpStars), 13);
+}
+
+TEST(MadeUpStars, ComeBrightestFirstAndEvenlySpread) {
+  const std::vector<CatalogueStar> stars = made_up_stars(100'000).stars;
+  EXPECT_TRUE(
+      std::is_sorted(stars.begin(), stars.end(),
+                     [](const CatalogueStar& a, const CatalogueStar& b) { return a.v < b.v; }));
+  V3d sum(0, 0, 0), squares(0, 0, 0);
+  for (const CatalogueStar& star : stars) {
+    const V3d& d = star.direction.v;
+    EXPECT_NEAR(d.length2(), 1, 1e-14);
+    sum += d, squares += d * d;
+  }
+  // The mean of each component is 0 and the mean of its square 1/3.  Four standard deviations of
+  // these means are 0.0073 and 0.0038 for 100,000 stars.
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(sum[axis] / 1e5, 0, 0.0073);
+    EXPECT_NEAR(squares[axis] / 1e5, 1.0 / 3, 0.0038);
+  }
+}
+
+TEST(MadeUpStars, OfASmallSkyAreTheFirstOnesOfALargeSky) {
+  const RawCatalogue few = made_up_stars(10), many = made_up_stars(20);
+  for (std::size_t k = 0; k < few.stars.size(); ++k) {
+    EXPECT_EQ(few.stars[k].direction.v, many.stars[k].direction.v);
+    EXPECT_EQ(few.stars[k].colour, many.stars[k].colour);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace domefall {
 namespace {
@@ -21,7 +22,7 @@ std::vector<FrameErrorRow> finer_and_finer(const std::string& scene) {
   return rows;
 }
 
-const FrameErrorRow& error_row(const std::string& scene, const std::string& part_of_setting) {
+const FrameErrorRow& error_row(std::string_view scene, std::string_view part_of_setting) {
   const auto found =
       std::find_if(quick_errors().begin(), quick_errors().end(), [&](const FrameErrorRow& row) {
         return row.scene == scene && row.setting.find(part_of_setting) != std::string::npos;

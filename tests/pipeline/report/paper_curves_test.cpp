@@ -1,26 +1,26 @@
-#include "pipeline/report/paper_curves.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <string_view>
 
-#include "pipeline/image/errors.h"
-#include "pipeline/report/gnuplot.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/report/report.h"
 
 namespace domefall {
 namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
 
-const Plot& curves_of(const std::vector<NamedPlot>& figures, const std::string& name) {
+const Plot& curves_of(const std::vector<NamedPlot>& figures, std::string_view name) {
   return std::find_if(figures.begin(), figures.end(),
                       [&](const NamedPlot& f) { return f.name == name; })
       ->plot;
 }
 
-const PlotCurve& curve_of(const Plot& plot, const std::string& name) {
+const PlotCurve& curve_of(const Plot& plot, std::string_view name) {
   return *std::find_if(plot.curves.begin(), plot.curves.end(),
                        [&](const PlotCurve& c) { return c.name == name; });
 }
@@ -89,7 +89,19 @@ TEST(Plots, LeaveOutWhatALogarithmCannotShow) {
   plot.curves = {{"a \"quoted\" name", {{1, 0}, {2, 1e-5}, {3, -1}, {4, NAN}}, 0}};
   const std::string script = gnuplot_script(plot);
   EXPECT_NE(script.find("$c0 << EOD\n2 1e-05\nEOD"), std::string::npos) << script;
-  EXPECT_NE(script.find("\"a \\\"quoted\\\" name\""), std::string::npos);
+  EXPECT_NE(script.find("'a \"quoted\" name'"), std::string::npos);
+}
+
+TEST(Plots, TextsAreNoScript) {
+  for (const char* text :
+       {"`touch ran`", "a'b", "x' ; system 'touch ran", "@ran", "a\\n\"b\nset"}) {
+    Plot plot;
+    plot.title = plot.x.label = text;
+    plot.labels = {{1, 1, text}};
+    plot.curves = {{text, {{1, 1}, {2, 2}}}};
+    EXPECT_FALSE(draw(plot).empty()) << text;
+    EXPECT_FALSE(std::filesystem::exists("ran")) << text;
+  }
 }
 
 TEST(Plots, AFaultyScriptIsToldInTheWordsOfGnuplot) {

@@ -41,7 +41,7 @@ TEST(RaySamples, StayInTheirRegionAndHaveATruth) {
   }
 }
 
-// The errors that the headers of pipeline/optics state.
+// The errors that the headers of pipeline/light state.
 TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
   for (const RayErrorRow& row : measure_rays(true)) {
     SCOPED_TRACE(row.region + " " + row.difficulty + " " + row.method);

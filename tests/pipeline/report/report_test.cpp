@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string_view>
 
-#include "pipeline/report/machine.h"
 #include "pipeline/report/text.h"
 
 namespace domefall {
@@ -38,7 +38,7 @@ Report small_report() {
   return report;
 }
 
-const Plot& plot_of(const std::vector<NamedPlot>& plots, const std::string& name) {
+const Plot& plot_of(const std::vector<NamedPlot>& plots, std::string_view name) {
   const auto found = std::find_if(plots.begin(), plots.end(),
                                   [&](const NamedPlot& plot) { return plot.name == name; });
   EXPECT_NE(found, plots.end()) << name;
@@ -72,7 +72,7 @@ TEST(ReportTables, TellWhatCostsAreMeasuredAgainst) {
 
 TEST(ReportTables, NamesOfFilesAreMadeOfOrbits) {
   EXPECT_EQ(slug("Circular, at 3.1 M (unstable)"), "circular-at-3-1-m-unstable");
-  EXPECT_EQ(csv_cell("say \"so\""), "\"say \"\"so\"\"\"");
+  EXPECT_EQ(csv_cell(std::string("say \"so\"")), "\"say \"\"so\"\"\"");
 }
 
 TEST(ErrorPlots, HaveOneCurveForEveryMethod) {

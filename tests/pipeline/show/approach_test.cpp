@@ -1,7 +1,7 @@
 // Tests of segments that give both their speeds and their end, and of those even in log r.
 #include <cmath>
 
-#include "tests/pipeline/show/observed_show.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -97,19 +97,19 @@ TEST_F(Approaches, MistakesInThemAreTold) {
             place +
                 "96: timeline[1].trajectory.pace excludes two rates, which shape the pace "
                 "themselves; give one of them");
-  EXPECT_EQ(told("type: circular, r: 9, orbits: 0, rate_m_per_s: [2, 1]"),
-            place +
-                "81: timeline[1].trajectory.rate_m_per_s needs an end behind the segment's "
-                "beginning");
+  EXPECT_EQ(
+      told("type: circular, r: 9, orbits: 0, rate_m_per_s: [2, 1]"),
+      place +
+          "81: timeline[1].trajectory.rate_m_per_s needs an end behind the segment's beginning");
   const std::string turns =
       "timeline[1].trajectory.pace of 'log_r' needs an r that only falls or only rises in the "
       "segment; end it, or begin it, where the orbit turns";
   EXPECT_EQ(told("type: circular, r: 9, pace: log_r"), place + "62: " + turns);
   EXPECT_EQ(told("type: parabolic, periastron: 5, from_r: 9, to_r: 20, pace: log_r"),
             place + "93: " + turns);
-  EXPECT_EQ(told("type: bound, periastron: 8, apoastron: 9, from_tau_m: 3, to_tau_m: 4000, pace: "
-                 "log_r"),
-            place + "113: " + turns);
+  EXPECT_EQ(
+      told("type: bound, periastron: 8, apoastron: 9, from_tau_m: 3, to_tau_m: 4000, pace: log_r"),
+      place + "113: " + turns);
 }
 
 }  // namespace

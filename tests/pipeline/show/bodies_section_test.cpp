@@ -1,7 +1,6 @@
 // Tests of the bodies of show files: what their keys mean, and what is said of mistakes.
 #include "pipeline/show/placement.h"
-#include "tests/pipeline/show/show_keys.h"
-#include "tests/pipeline/show/show_mistakes.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -10,8 +9,8 @@ using Bodies = ShowKeys;
 using BodyMistakes = ShowMistakes;
 
 const std::string kOrbit =
-    "{period_years: 16, eccentricity: 0.9, inclination_deg: 1, node_deg: 2, pericentre_deg: 3,"
-    " pericentre_year: 4}";
+    "{period_years: 16, eccentricity: 0.9, inclination_deg: 1, node_deg: 2, pericentre_deg: 3, "
+    "pericentre_year: 4}";
 
 TEST_F(Bodies, AreNoneUnlessAShowNamesThem) { EXPECT_TRUE(with("").bodies.empty()); }
 
@@ -32,9 +31,8 @@ TEST_F(Bodies, GoWithTheFirstOrbitFromTheObserversPlaceUnlessTheySayOtherwise) {
 
 TEST_F(Bodies, RiseAtTheirNodeByTheirInclination) {
   const Show show = with(
-      "bodies:\n  one: {r: 6, inclination_deg: 30, node_deg: 90, azimuth_deg: -45,"
-      " temperature_k: 3e4, magnitude: -2.5, radius: 0.2}\n  two: {r: 3.5, inclination_deg: "
-      "180}\n");
+      "bodies:\n  one: {r: 6, inclination_deg: 30, node_deg: 90, azimuth_deg: -45, temperature_k: "
+      "3e4, magnitude: -2.5, radius: 0.2}\n  two: {r: 3.5, inclination_deg: 180}\n");
   ASSERT_EQ(show.bodies.size(), 2u);
   const Body& one = show.bodies[0];
   const M33d axes = place_tetrad(show.hole_at, show.heading, 0);
@@ -58,8 +56,8 @@ TEST_F(Bodies, GoTheirOwnWays) {
       "camera: {look_at: {body: falls}}\n");
   ASSERT_EQ(show.bodies.size(), 2u);
   const M33d axes = place_tetrad(show.hole_at, show.heading, 0);
-  const BodyMotion falls = motion_of(show.bodies[0], axes),
-                   passes = motion_of(show.bodies[1], axes);
+  const BodyMotion falls = motion_of(show.spacetime, show.bodies[0], axes),
+                   passes = motion_of(show.spacetime, show.bodies[1], axes);
   EXPECT_EQ(falls.begin, 0);
   const BodyPoint start = falls.at(1e-6);
   EXPECT_NEAR(start.r, 9, 1e-9);
@@ -79,16 +77,16 @@ TEST_F(Bodies, GoTheirOwnWays) {
 // receding at 4000 km/s, and went from it approaching at 1900 km/s.
 TEST_F(Bodies, HaveTheOrbitsThatAstronomersPublish) {
   const Show show = with(
-      "begins_year: 2010\nbodies: {S2: {elements: {period_years: 16.05, eccentricity: 0.8843,"
-      " inclination_deg: 133.9, node_deg: 228.07, pericentre_deg: 66.25, pericentre_year: 2018.38},"
-      " absolute_magnitude: -3.8}}\n",
+      "begins_year: 2010\nbodies: {S2: {elements: {period_years: 16.05, eccentricity: 0.8843, "
+      "inclination_deg: 133.9, node_deg: 228.07, pericentre_deg: 66.25, pericentre_year: 2018.38}, "
+      "absolute_magnitude: -3.8}}\n",
       "{type: infall, from_r: 30}", "{mass_solar: 4.154e6}");
   ASSERT_EQ(show.bodies.size(), 1u);
-  const double seconds = kSecondsPerSolarMass * *show.mass_solar, year = 31557600 / seconds;
+  const double seconds = show.spacetime.seconds_per_m(), year = 31557600 / seconds;
   EXPECT_NEAR(show.bodies[0].null_time, 8.38 * year, 1e-6 * year);
   // At 10 pc, 1.0293e9 light seconds, it would be of magnitude -3.8.
   EXPECT_NEAR(show.bodies[0].magnitude, -3.8 - 5 * std::log10(1.0293e9 / (100 * seconds)), 1e-3);
-  const BodyMotion motion = motion_of(show.bodies[0], M33d());
+  const BodyMotion motion = motion_of(show.spacetime, show.bodies[0], M33d());
   const V3d away = show.hole_at.v, east = V3d(-away.y, away.x, 0).normalized(),
             north = away.cross(east);
   const auto place = [&motion](double tau) {
@@ -118,35 +116,32 @@ TEST_F(Bodies, HaveTheOrbitsThatAstronomersPublish) {
 }
 
 TEST_F(BodyMistakes, AreToldWithTheirPlace) {
-  expect_complaints({
-      {"no radius", kShow + "bodies: {a: {magnitude: 1}}\n",
+  expect_complaints_of_lines({
+      {"bodies: {a: {magnitude: 1}}",
        "3:13: bodies.a.trajectory is missing: how the body moves, or r, the radius of its circular "
        "orbit, or elements"},
-      {"no type of a body's", kShow + "bodies: {a: {trajectory: {type: path, file: x.csv}}}\n",
+      {"bodies: {a: {trajectory: {type: path, file: x.csv}}}",
        "3:33: bodies.a.trajectory.type must be static, circular, parabolic, hyperbolic, bound, "
        "infall or thrown, got 'path'"},
-      {"an end", kShow + "bodies: {a: {trajectory: {type: infall, from_r: 9, to_r: 3}}}\n",
+      {"bodies: {a: {trajectory: {type: infall, from_r: 9, to_r: 3}}}",
        "3:58: bodies.a.trajectory.to_r is for the trajectories of segments"},
-      {"two ways", kShow + "begins_year: 1\nbodies: {a: {r: 9, elements: " + kOrbit + "}}\n",
-       "4:17: bodies.a.r excludes elements; give one of them"},
-      {"no year to count from", kShow + "bodies: {a: {elements: " + kOrbit + "}}\n",
-       "3:131: bodies.a.elements.pericentre_year needs the show's begins_year, the year in which "
-       "it "
-       "begins"},
-      {"an orbit within the hole's reach",
-       kShow + "begins_year: 1\nbodies: {a: {elements: {period_years: 1e-12, eccentricity: 0.5,"
-               " inclination_deg: 1, node_deg: 2, pericentre_deg: 3, pericentre_year: 4}}}\n",
-       "4:24: bodies.a.elements has an orbit that this hole does not have: p must exceed 7 "
-       "(units of M), got 0.7598204518: at e = 0.5 a smaller orbit falls into the hole (p > 6 + "
-       "2e)"},
-      {"a name", kShow + "bodies: {a: {r: 9}}\ncamera: {look_at: {body: b}}\n",
+      {"begins_year: 1\nbodies: {a: {elements: {period_years: 1e-12, eccentricity: 0.5, "
+       "inclination_deg: 1, node_deg: 2, pericentre_deg: 3, pericentre_year: 4}}}",
+       "4:24: bodies.a.elements has an orbit that this hole does not have: p must exceed 7 (units "
+       "of M), got 0.7598204518: at e = 0.5 a smaller orbit falls into the hole (p > 6 + 2e)"},
+      {"bodies: {a: {r: 9}}\ncamera: {look_at: {body: b}}",
        "4:26: camera.look_at.body names no body of the show: 'b'"},
-      {"no orbit", kShow + "bodies: {a: {r: 3}}\n",
-       "3:17: bodies.a.r must exceed 3 (units of M), got 3"},
-      {"no size", kShow + "bodies: {a: {r: 9, radius: 0}}\n",
-       "3:28: bodies.a.radius must exceed 0 (units of M), got 0"},
-      {"a list", kShow + "bodies: [{r: 9}]\n",
+      {"bodies: {a: {r: 3}}", "3:17: bodies.a.r must exceed 3 (units of M), got 3"},
+      {"bodies: {a: {r: 9, radius: 0}}", "3:28: bodies.a.radius must exceed 0 (units of M), got 0"},
+      {"bodies: [{r: 9}]",
        "3:9: bodies must be a map of names and bodies, e.g. {beacon: {r: 10}}, got a list"},
+  });
+  expect_complaints({
+      {kShow + "begins_year: 1\nbodies: {a: {r: 9, elements: " + kOrbit + "}}\n",
+       "4:17: bodies.a.r excludes elements; give one of them"},
+      {kShow + "bodies: {a: {elements: " + kOrbit + "}}\n",
+       "3:131: bodies.a.elements.pericentre_year needs the show's begins_year, the year in which "
+       "it begins"},
   });
   EXPECT_NE(
       complaint("bodies: {a: {r: 9}}\ntimeline: [{duration_s: 2, trajectory: {type: static}}]\n")

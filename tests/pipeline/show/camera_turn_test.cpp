@@ -1,7 +1,7 @@
 // Tests of a camera that turns from one target to the next.
 #include <cmath>
 
-#include "pipeline/optics/aberration.h"
+#include "pipeline/light/aberration.h"
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/frame_state.h"
 #include "tests/pipeline/show/show_file.h"

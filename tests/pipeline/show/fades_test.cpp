@@ -1,8 +1,6 @@
 // Tests of fades from and to black, and of backgrounds that change from segment to segment.
 #include "pipeline/show/assets.h"
-#include "pipeline/show/frame_state.h"
-#include "pipeline/show/observer_track.h"
-#include "tests/pipeline/show/show_mistakes.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -45,11 +43,11 @@ TEST_F(Fading, EachSegmentOfADissolveFadesByItself) {
 
 TEST_F(Fading, MistakesInThemAreTold) {
   expect_complaints({
-      {"LongerThanTheSegment", "timeline: [{duration_s: 2, fade_in_s: 1, fade_out_s: 1.5}]\n",
+      {"timeline: [{duration_s: 2, fade_in_s: 1, fade_out_s: 1.5}]\n",
        "1:54: timeline[1].fade_out_s makes 2.5 s of fades, but the segment lasts 2 s"},
-      {"LongerThanTheShow", "timeline: [{duration_s: 2}]\nfade_in_s: 3\n",
+      {"timeline: [{duration_s: 2}]\nfade_in_s: 3\n",
        "2:12: fade_in_s makes 3 s of fades, but the show lasts 2 s"},
-      {"Negative", "timeline: [{duration_s: 2, fade_in_s: -1}]\n",
+      {"timeline: [{duration_s: 2, fade_in_s: -1}]\n",
        "1:39: timeline[1].fade_in_s must be at least 0 (seconds), got -1"},
   });
 }
@@ -88,22 +86,20 @@ TEST_F(Fading, MistakesInBackgroundsOfSegmentsAreTold) {
     return "timeline: [{duration_s: 2, sky: {" + text + "}}]\n";
   };
   expect_complaints({
-      {"White", sky("region_I: {background: a.png, white_cd_m2: 0}"),
+      {sky("region_I: {background: a.png, white_cd_m2: 0}"),
        "1:77: timeline[1].sky.region_I.white_cd_m2 must exceed 0 (cd/m^2), got 0"},
-      {"WhiteOfTheGrid", sky("region_I: {background: grid, white_cd_m2: 1}"),
+      {sky("region_I: {background: grid, white_cd_m2: 1}"),
        "1:76: timeline[1].sky.region_I.white_cd_m2 is the white of an image; this background has "
        "its own light, see gain"},
-      {"MissingFile", sky("region_I: {background: c.png}"),
+      {sky("region_I: {background: c.png}"),
        "1:57: timeline[1].sky.region_I.background names the file 'c.png', which is neither beside "
        "the show nor in the working folder"},
-      {"PeriodWithoutRings", sky("region_IV: {period_m: 3}"),
+      {sky("region_IV: {period_m: 3}"),
        "1:56: timeline[1].sky.region_IV.period_m is the period of rings; the background must be "
        "rings"},
-      {"InAKeyframe",
-       "timeline: [{duration_s: 2}]\n"
-       "keyframes: [{at_s: 1, sky: {region_I: {background: grid}}}]\n",
+      {"timeline: [{duration_s: 2}]\nkeyframes: [{at_s: 1, sky: {region_I: {background: grid}}}]\n",
        "2:40: keyframes[1].sky.region_I.background is an unknown key; known here: gain or stars"},
-      {"StarsAreTheShows", sky("region_I: {background: grid, stars: {catalogue: a.csv}}"),
+      {sky("region_I: {background: grid, stars: {catalogue: a.csv}}"),
        "1:71: timeline[1].sky.region_I.stars.catalogue is an unknown key; known here: "
        "max_magnitude or gain"},
   });

@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "pipeline/show/observer_track.h"
-#include "tests/pipeline/show/show_keys.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -87,9 +86,8 @@ TEST_F(FarEnds, ASegmentBeginsAndEndsAtItsRadii) {
 }
 
 TEST_F(FarEnds, LogRFallsEvenlyToTheDeepestPlace) {
-  for (const char* orbit : {"infall, from_r: 1e4, to_r: 1e-6",
-                            "infall, rest_r: 1e9, from_r: 1, "
-                            "to_r: 1e-6"}) {
+  for (const char* orbit :
+       {"infall, from_r: 1e4, to_r: 1e-6", "infall, rest_r: 1e9, from_r: 1, to_r: 1e-6"}) {
     const Segment s = segment("{type: " + std::string(orbit) + ", pace: slowing}");
     const double from = std::log(r_at(s, 0)), to = std::log(r_at(s, 1));
     for (const double part : {0.5, 0.9, 0.99, 0.999})

@@ -1,10 +1,10 @@
-#include "pipeline/show/frame_size.h"
+#include "pipeline/show/file/frame_size.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "pipeline/image/errors.h"
+#include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
 namespace {
@@ -37,12 +37,7 @@ TEST(FrameSize, IsByNameOrByPixels) {
 
 TEST(FrameSize, IsCalledAsItsUserKnowsIt) {
   const auto message = [](const auto&... name) {
-    try {
-      (void)resized(Domemaster{16}, "15", name...);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return message_of([&] { (void)resized(Domemaster{16}, "15", name...); });
   };
   EXPECT_TRUE(message().starts_with("--size 15: a dome takes ")) << message();
   EXPECT_TRUE(message("size").starts_with("size 15: a dome takes ")) << message("size");

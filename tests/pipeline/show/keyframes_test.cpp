@@ -1,7 +1,7 @@
 // Tests of what changes during a show: cameras, exposure, skies.
 #include <cmath>
 
-#include "pipeline/optics/aberration.h"
+#include "pipeline/light/aberration.h"
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/frame_state.h"
 #include "tests/pipeline/show/show_file.h"

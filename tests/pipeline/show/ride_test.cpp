@@ -1,7 +1,5 @@
 // Tests of observers who move as a body of their show does.
-#include "pipeline/show/observer_track.h"
-#include "tests/pipeline/show/show_keys.h"
-#include "tests/pipeline/show/show_mistakes.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -13,17 +11,17 @@ const std::string kBodies =
     "bodies:\n"
     "  circles: {r: 9, inclination_deg: 40, node_deg: 70, azimuth_deg: 33}\n"
     "  falls: {trajectory: {type: infall, rest_r: 9}, begins_m: 0, azimuth_deg: 20}\n"
-    "  returns: {trajectory: {type: bound, periastron: 10, apoastron: 40, from_tau_m: -30},"
-    " inclination_deg: 160}\n"
-    "  rises: {trajectory: {type: thrown, from_r: 5, speed: 0.7, direction: outward},"
-    " azimuth_deg: 5}\n";
+    "  returns: {trajectory: {type: bound, periastron: 10, apoastron: 40, from_tau_m: -30}, "
+    "inclination_deg: 160}\n"
+    "  rises: {trajectory: {type: thrown, from_r: 5, speed: 0.7, direction: outward}, azimuth_deg: "
+    "5}\n";
 
 class RidesOn : public Rides {
  protected:
   // At three instants of the first segment the observer is where the body was `behind` before.
   static void expect_beside(const Show& show, const Body& body, double behind) {
     SCOPED_TRACE(body.name);
-    const BodyMotion motion = motion_of(body, M33d());
+    const BodyMotion motion = motion_of(show.spacetime, body, M33d());
     for (const double part : {0.0, 0.4, 1.0}) {
       const ObserverState o = observer_at(show, 0, part);
       const BodyPoint at = motion.at(o.proper_time - double(body.start));

@@ -1,8 +1,8 @@
 // Tests of what each key of a show file means, in the units of the program, and of its default.
-#include "tests/pipeline/show/show_keys.h"
-
 #include <cmath>
 #include <numbers>
+
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -21,7 +21,7 @@ TEST_F(ShowKeys, SixLinesMakeAShowForADome) {
   EXPECT_EQ(show.frames_per_second, 30);
   EXPECT_EQ(frame_count(show), 300);
   EXPECT_EQ(std::get<Domemaster>(show.projection).size, 4096);
-  EXPECT_EQ(show.mass_solar, 4.3e6);
+  EXPECT_EQ(show.spacetime.solar_masses(), 4.3e6);
   expect_near(show.hole_at.v, place(266.405, -28.936).v);
   EXPECT_DOUBLE_EQ(show.heading, 90 * kDegree);
   ASSERT_EQ(show.timeline.size(), 1u);
@@ -67,46 +67,48 @@ TEST_F(ShowKeys, TheTitleIsTheFilesNameWhereNoneIsGiven) {
 }
 
 TEST_F(ShowKeys, FrameRateSizeAndOutput) {
-  EXPECT_EQ(with("frames_per_second: 23.976\n").frames_per_second, 23.976);
+  EXPECT_EQ(with("frames_per_second: 23.976\n").frames_per_second, 24000.0 / 1001);
+  EXPECT_EQ(with("frames_per_second: 23.98\n").written_rate, 23.98);
+  for (const char* fraction : {"24000/1001", "\"24000/1001\"", "48000/2002"}) {
+    const Show exact = with("frames_per_second: " + std::string(fraction) + "\n");
+    EXPECT_EQ(exact.frames_per_second, 24000.0 / 1001) << fraction;
+    EXPECT_FALSE(exact.written_rate) << fraction;
+  }
+  EXPECT_FALSE(with("frames_per_second: 12.5\n").written_rate);
   EXPECT_EQ(frame_count(with("frames_per_second: 60\n")), 600);
   for (const auto& [text, pixels] :
        {std::pair{"1k", 1024}, {"2k", 2048}, {"4k", 4096}, {"8k", 8192}, {"16", 16}, {"777", 777}})
     EXPECT_EQ(std::get<Domemaster>(with("size: " + std::string(text) + "\n").projection).size,
               pixels);
-  EXPECT_EQ(with("output: {graded: png}\n").output.graded, GradedFormat{GradedKind::kPng16});
-  EXPECT_EQ(with("output: {graded: tiff}\n").output.graded, GradedFormat{GradedKind::kTiff16});
-  EXPECT_EQ(with("output: {graded: none}\n").output.graded, std::nullopt);
 }
 
 TEST_F(ShowKeys, GradedFilesHaveAKindAndAJpegAQuality) {
   using enum GradedKind;
-  for (const auto& [word, kind] : {std::pair{"png16", kPng16},
-                                   {"png8", kPng8},
-                                   {"jpeg", kJpeg},
-                                   {"tiff16", kTiff16},
-                                   {"tiff8", kTiff8}})
-    EXPECT_EQ(with("output: {graded: " + std::string(word) + "}\n").output.graded,
-              GradedFormat{kind});
-  EXPECT_EQ(with("output: {graded: jpeg, quality: 80}\n").output.graded, (GradedFormat{kJpeg, 80}));
+  const std::pair<const char*, std::optional<GradedFormat>> formats[] = {
+      {"png16", {{kPng16}}},   {"png8", {{kPng8}}},   {"jpeg", {{kJpeg}}},
+      {"tiff16", {{kTiff16}}}, {"tiff8", {{kTiff8}}}, {"jpeg, quality: 80", {{kJpeg, 80}}},
+      {"png", {{kPng16}}},     {"tiff", {{kTiff16}}}, {"none", std::nullopt}};
+  for (const auto& [words, format] : formats)
+    EXPECT_EQ(with("output: {graded: " + std::string(words) + "}\n").output.graded, format);
 }
 
 TEST_F(ShowKeys, FlatImagesAreFullHdAtNinetyDegreesOrWhatIsGiven) {
-  const auto plain =
-      std::get<Stereographic>(with("camera: {projection: stereographic}").projection);
-  EXPECT_EQ(plain.columns, 1920);
-  EXPECT_EQ(plain.rows, 1080);
+  const auto flat = [this](const std::string& keys) {
+    return std::get<Stereographic>(with(keys).projection);
+  };
+  const Stereographic plain = flat("camera: {projection: stereographic}"),
+                      given = flat(
+                          "size: [640, 480]\ncamera: {projection: stereographic, fov_deg: 270}");
+  EXPECT_EQ(std::pair(plain.columns, plain.rows), std::pair(1920, 1080));
   EXPECT_DOUBLE_EQ(plain.fov, 90 * kDegree);
-  const auto given = std::get<Stereographic>(
-      with("size: [640, 480]\ncamera: {projection: stereographic, fov_deg: 270}").projection);
-  EXPECT_EQ(given.columns, 640);
-  EXPECT_EQ(given.rows, 480);
+  EXPECT_EQ(std::pair(given.columns, given.rows), std::pair(640, 480));
   EXPECT_DOUBLE_EQ(given.fov, 270 * kDegree);
 }
 
 TEST_F(ShowKeys, TheHolesPlaceIsGivenInDegreesOrByAStar) {
   const Show given = with("", "{type: static, r: 9}",
                           "{mass_solar: 10, at: {ra_deg: 83.6, dec_deg: 22}, heading_deg: -30}");
-  EXPECT_EQ(given.mass_solar, 10);
+  EXPECT_EQ(given.spacetime.solar_masses(), 10);
   expect_near(given.hole_at.v, place(83.6, 22).v);
   EXPECT_DOUBLE_EQ(given.heading, -30 * kDegree);
   for (const char* star : {"Betelgeuse", "betelgeuse", "alpha Ori", "{star: Betelgeuse}"})
@@ -117,9 +119,10 @@ TEST_F(ShowKeys, TheHolesPlaceIsGivenInDegreesOrByAStar) {
 
 TEST_F(ShowKeys, WithoutAMassSpaceIsFlatAndASegmentMayRest) {
   for (const char* hole : {"", "black_hole: {mass_solar: 0}\n", "black_hole: {at: Vega}\n"}) {
-    const Show show = read(hole + std::string("timeline: [{duration_s: 4}, {duration_s: 2, "
-                                              "trajectory: {type: static}}]\n"));
-    EXPECT_FALSE(show.mass_solar) << hole;
+    const Show show = read(
+        hole +
+        std::string("timeline: [{duration_s: 4}, {duration_s: 2, trajectory: {type: static}}]\n"));
+    EXPECT_TRUE(show.spacetime.is_flat()) << hole;
     for (const Segment& s : show.timeline) {
       EXPECT_EQ(std::get<StaticObserver>(s.trajectory).r, kFlatSpace);
       EXPECT_EQ(s.timing.tau_end, s.duration_s);  // seconds
@@ -178,19 +181,19 @@ TEST_F(ShowKeys, ASegmentsCameraIsLaidOverTheShowsKeyByKey) {
 // ---- effects, stars, exposure, grade ----
 
 TEST_F(ShowKeys, EffectsAreThoseOfNatureUnlessTheShowLeavesThemOut) {
+  const auto effects = [this](const std::string& keys) {
+    return with("effects: {" + keys + "}\n", "{type: static, r: 30}").effects;
+  };
   EXPECT_EQ(with("").effects, Effects{});
-  EXPECT_EQ(
-      with("effects: {aberration: true, doppler_colour: true, intensity: true, lensing: true, "
-           "amplification: stars}\n")
-          .effects,
-      Effects{});
-  EXPECT_FALSE(with("effects: {aberration: false}\n").effects.aberration);
-  EXPECT_FALSE(with("effects: {doppler_colour: false}\n").effects.doppler_colour);
-  EXPECT_FALSE(with("effects: {intensity: false}\n").effects.intensity);
-  EXPECT_FALSE(with("effects: {lensing: false}\n", "{type: static, r: 30}").effects.lensing);
-  EXPECT_EQ(with("effects: {amplification: none}\n").effects.amplification, Amplification::kNone);
-  EXPECT_EQ(with("effects: {amplification: everything}\n").effects.amplification,
-            Amplification::kEverything);
+  EXPECT_EQ(effects("aberration: true, doppler_colour: true, intensity: true, lensing: true, "
+                    "amplification: stars"),
+            Effects{});
+  EXPECT_FALSE(effects("aberration: false").aberration);
+  EXPECT_FALSE(effects("doppler_colour: false").doppler_colour);
+  EXPECT_FALSE(effects("intensity: false").intensity);
+  EXPECT_FALSE(effects("lensing: false").lensing);
+  EXPECT_EQ(effects("amplification: none").amplification, Amplification::kNone);
+  EXPECT_EQ(effects("amplification: everything").amplification, Amplification::kEverything);
 }
 
 // Only the places of frames count: a fall may end at the horizon if the frame before is outside.
@@ -267,6 +270,84 @@ TEST_F(ShowKeys, ADomesOwnLight) {
   EXPECT_EQ(with("dome: {light: simulate}\n").grade.dome.reflectance, 0.45);
   EXPECT_EQ(with("dome: {light: compensate, reflectance: 0.3}\n").grade.dome.light, kCompensate);
   EXPECT_EQ(with("dome: {light: compensate, reflectance: 0.3}\n").grade.dome.reflectance, 0.3);
+}
+
+// ---- trajectories ----
+
+TEST_F(ShowKeys, AFallEndsAtItsToR) {
+  const Segment s = segment("{type: infall, from_r: 12, to_r: 3}");
+  EXPECT_NEAR(point_at(s.trajectory, s.timing.tau_end).r, 3, 1e-13);
+}
+
+TEST_F(ShowKeys, RatesAreUnitsOfMPerSecondOfShow) {
+  EXPECT_EQ(segment("{type: infall, from_r: 30, rate_m_per_s: 1.5}").timing.tau_end, 15);
+  EXPECT_EQ(segment("{type: circular, r: 8, rate_m_per_s: 0.25}").timing.tau_end, 2.5);
+  EXPECT_EQ(segment("{type: circular, r: 8}").timing.tau_end, 10)
+      << "1 M per second is the default";
+}
+
+TEST_F(ShowKeys, AFallMaySlowDown) {
+  EXPECT_EQ(segment("{type: infall, from_r: 12}").timing.pace, Pace::kSteady);
+  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: steady}").timing.pace, Pace::kSteady);
+  EXPECT_EQ(segment("{type: infall, from_r: 12, pace: slowing}").timing.pace, Pace::kSlowing);
+}
+
+TEST_F(ShowKeys, OrbitsCountRevolutionsInTheSegment) {
+  const Segment s = segment("{type: circular, r: 6, orbits: 1.5}");
+  EXPECT_EQ(std::get<CircularOrbit>(s.trajectory).r, 6);
+  EXPECT_NEAR(point_at(s.trajectory, s.timing.tau_end).azimuth, 3 * std::numbers::pi, 1e-13);
+}
+
+TEST_F(ShowKeys, TimeLapseIsRealSecondsPerSecondOfShow) {
+  // One M of 4e6 suns is 4e6 * 4.925490947e-6 s = 19.701963788 s.
+  EXPECT_NEAR(double(segment("{type: circular, r: 8, time_lapse: 100}").timing.tau_end),
+              1000 / 19.701963788, 1e-11);
+  EXPECT_NEAR(double(segment("{type: infall, from_r: 900, time_lapse: 100}").timing.tau_end),
+              1000 / 19.701963788, 1e-11);
+  EXPECT_NEAR(double(segment("{type: static, r: 8}").timing.tau_end), 10 / 19.701963788, 1e-13);
+}
+
+TEST_F(ShowKeys, AVelocityAgainstTheStaticFrameIsTheDefault) {
+  const double rest = std::sqrt(2.0 / 6);  // gamma v of the static frame at r = 8
+  expect_near(celerity("r: 8, speed: 0"), V3d(rest, 0, 0));
+  // Free fall from rest at infinity moves inward at sqrt(2/r) = 1/2 against the static frame.
+  expect_near(celerity("r: 8, speed: 0.5, direction: inward"), V3d(0, 0, 0));
+  expect_near(celerity("r: 8, speed: 0.5, direction: inward, against: static"), V3d(0, 0, 0));
+}
+
+TEST_F(ShowKeys, DirectionsOfAVelocity) {
+  const double c = 0.75;  // gamma v at v = 0.6
+  const auto along = [&](const std::string& direction) {
+    return celerity("r: 1, against: free_fall, speed: 0.6, direction: " + direction);
+  };
+  expect_near(along("inward"), V3d(-c, 0, 0));
+  expect_near(along("outward"), V3d(c, 0, 0));
+  expect_near(along("forward"), V3d(0, 0, c));
+  expect_near(along("backward"), V3d(0, 0, -c));
+  expect_near(along("north"), V3d(0, -c, 0));
+  expect_near(along("south"), V3d(0, c, 0));
+  expect_near(along("{radial: -3, phi: 4}"), V3d(-0.6, 0, 0.8) * c);
+  expect_near(along("{theta: 2}"), V3d(0, c, 0));
+  expect_near(along("{radial: 1e9, theta: 1e9, phi: 1e9}"), V3d(1, 1, 1) * (c / std::sqrt(3)));
+}
+
+TEST_F(ShowKeys, LorentzFactorsKeepTheirDigitsUpToABillion) {
+  for (const auto& [text, factor] : {std::pair{"1", 1.0}, {"1.25", 1.25}, {"1e9", 1e9}}) {
+    const V3d u = celerity("against: free_fall, r: 5, direction: forward, lorentz_factor: " +
+                           std::string(text));
+    EXPECT_NEAR(u.z / std::max(1.0, factor), std::sqrt((factor - 1) * (factor + 1)) / factor,
+                1e-15);
+  }
+}
+
+TEST_F(ShowKeys, InFlatSpaceAVelocityPointsToAPlaceOnTheSky) {
+  const Show show = with("", "{type: velocity, speed: 0.6, direction: Vega}", "{mass_solar: 0}");
+  const auto v = std::get<GivenVelocity>(show.timeline[0].trajectory);
+  EXPECT_EQ(v.r, kFlatSpace);
+  EXPECT_EQ(show.timeline[0].timing.tau_end, 10);
+  const V3d u = celerity("speed: 0.6, direction: {ra_deg: 279.235, dec_deg: 38.784}", "{}");
+  expect_near(u, v.celerity, kStarPlace);
+  EXPECT_NEAR(u.length(), 0.75, 1e-14);
 }
 
 // ---- YAML ----

@@ -1,7 +1,5 @@
 // Tests of the keys that say what projection a show has, and of what is told of mistakes in them.
-#include "pipeline/show/frame_state.h"
-#include "tests/pipeline/show/show_keys.h"
-#include "tests/pipeline/show/show_mistakes.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -17,6 +15,13 @@ TEST_F(ShowProjections, RectilinearImagesAreAsFlatOnes) {
       with("size: [640, 480]\ncamera: {projection: rectilinear, fov_deg: 170}").projection);
   EXPECT_EQ(given.columns, 640);
   EXPECT_DOUBLE_EQ(given.fov, 170 * kDegree);
+}
+
+TEST_F(ShowProjections, AreThoseOfTheListByTheirNames) {
+  for (const ProjectionTraits& traits : kEveryProjectionTraits)
+    EXPECT_EQ(
+        projection_name(with("camera: {projection: " + std::string(traits.name) + "}").projection),
+        traits.name);
 }
 
 TEST_F(ShowProjections, AFisheyeIsASquareOrAPartOfIt) {
@@ -67,89 +72,70 @@ TEST_F(ShowProjections, ImagesWithAZenithHaveTheAxesOfADome) {
 using ShowErrorsInProjections = ShowMistakes;
 
 TEST_F(ShowErrorsInProjections, AreToldWithTheirPlace) {
-  expect_complaints({
-      {"FisheyeTooHigh",
-       kShow + "size: [100, 101]\n"
-               "camera: {projection: fisheye}\n",
+  expect_complaints_of_lines({
+      {"size: [100, 101]\ncamera: {projection: fisheye}",
        "3:7: size must be at most as high as wide (the circle of a fisheye touches both sides), "
        "got [100, 101]"},
-      {"OddSphere",
-       kShow + "size: 101\n"
-               "camera: {projection: equirectangular}\n",
+      {"size: 101\ncamera: {projection: equirectangular}",
        "3:7: size must be even (a whole sphere is half as high as wide), got 101"},
-      {"CubeTooLarge",
-       kShow + "size: 5462\n"
-               "camera: {projection: cubemap}\n",
+      {"size: 5462\ncamera: {projection: cubemap}",
        "3:7: size must be at most 5461 (pixels), got 5462"},
-      {"CubeOfEightK",
-       kShow + "size: 8k\n"
-               "camera: {projection: cubemap}\n",
+      {"size: 8k\ncamera: {projection: cubemap}",
        "3:7: size must be at most 5461 (pixels; the edge of a face, of which three make the "
        "width), got 8k"},
-      {"TitleOnACube",
-       kShow + "camera: {projection: cubemap}\n"
-               "titles: [{text: Hello}]\n",
+      {"camera: {projection: cubemap}\ntitles: [{text: Hello}]",
        "4:9: titles cannot be drawn on a cubemap, whose faces would cut them; an equirectangular "
        "picture shows them"},
-      {"FovOnASphere", kShow + "camera: {projection: equirectangular, fov_deg: 90}\n",
+      {"camera: {projection: equirectangular, fov_deg: 90}",
        "3:48: camera.fov_deg goes with the projections fisheye, stereographic and rectilinear; an "
        "equirectangular shows 360 degrees"},
-      {"FovOfAFisheyeTooWide", kShow + "camera: {projection: fisheye, fov_deg: 361}\n",
+      {"camera: {projection: fisheye, fov_deg: 361}",
        "3:40: camera.fov_deg must be at most 360 (degrees), got 361"},
-      {"FovOfARectilinearTooWide", kShow + "camera: {projection: rectilinear, fov_deg: 171}\n",
+      {"camera: {projection: rectilinear, fov_deg: 171}",
        "3:44: camera.fov_deg must be at most 170 (degrees), got 171"},
-      {"ElevationOnARectilinear", kShow + "camera: {projection: rectilinear, elevation_deg: 3}\n",
+      {"camera: {projection: rectilinear, elevation_deg: 3}",
        "3:50: camera.elevation_deg is for domes; this projection is flat"},
-      {"CutOfASquare", kShow + "camera: {projection: fisheye, cut: back}\n",
+      {"camera: {projection: fisheye, cut: back}",
        "3:36: camera.cut is for a size of [width, height] that is lower than wide; this one is a "
        "square"},
-      {"CutOfADome", kShow + "camera: {cut: back}\n",
-       "3:15: camera.cut goes with the fisheye projection only"},
-      {"DomeLightOfASphere",
-       kShow + "camera: {projection: equirectangular}\ndome: {light: simulate}\n",
+      {"camera: {cut: back}", "3:15: camera.cut goes with the fisheye projection only"},
+      {"camera: {projection: equirectangular}\ndome: {light: simulate}",
        "4:15: dome.light is for a whole half sphere, which the projection domemaster shows"},
-      {"DomeLightUnknown", kShow + "dome: {light: on}\n",
-       "3:15: dome.light must be none, simulate or compensate, got 'on'"},
-      {"MoreThanAllReflected", kShow + "dome: {light: simulate, reflectance: 1.1}\n",
+      {"dome: {light: on}", "3:15: dome.light must be none, simulate or compensate, got 'on'"},
+      {"dome: {light: simulate, reflectance: 1.1}",
        "3:38: dome.reflectance must be at most 1, got 1.1"},
-      {"ViewInASegment",
-       kHole + "timeline:\n"
-               "  - duration_s: 1\n"
-               "    trajectory: {type: static, r: 9}\n"
-               "    grade: {view: Dome}\n",
-       "5:13: timeline[1].grade.view is an unknown key; known here: cdl"},
-      {"PowerZeroInAKeyframe", kShow + "keyframes: [{at_s: 1, grade: {cdl: {power: 0}}}]\n",
+      {"keyframes: [{at_s: 1, grade: {cdl: {power: 0}}}]",
        "3:44: keyframes[1].grade.cdl.power must exceed 0, got 0"},
-      {"PowerZero", kShow + "grade: {cdl: {power: 0}}\n",
-       "3:22: grade.cdl.power must exceed 0, got 0"},
-      {"SlopeOfTwo", kShow + "grade: {cdl: {slope: [1, 1]}}\n",
-       "3:22: grade.cdl.slope must be a list of 3 numbers, got 2"},
-      {"UnknownFormat", kShow + "output: {graded: gif}\n",
+      {"grade: {cdl: {power: 0}}", "3:22: grade.cdl.power must exceed 0, got 0"},
+      {"grade: {cdl: {slope: [1, 1]}}", "3:22: grade.cdl.slope must be a list of 3 numbers, got 2"},
+      {"output: {graded: gif}",
        "3:18: output.graded must be png16, png8, jpeg, tiff16, tiff8, png, tiff or none, got "
        "'gif'"},
-      {"NoFiles", kShow + "output: {linear: none, graded: none}\n",
+      {"output: {linear: none, graded: none}",
        "3:32: output.graded and linear are both none, so that nothing would be made"},
-      {"CompressionOfNothing", kShow + "output: {linear: none, compression: zip}\n",
+      {"output: {linear: none, compression: zip}",
        "3:37: output.compression is that of scene-linear files, of which linear: none makes none; "
        "leave it out"},
-      {"LossyCompression", kShow + "output: {compression: dwaa}\n",
+      {"output: {compression: dwaa}",
        "3:23: output.compression must be zip, zips, piz or none, got 'dwaa'"},
-      {"NameWithAFolder", kShow + "output: {name: a/b}\n",
+      {"output: {name: a/b}",
        "3:16: output.name is that of a file and may have no '/'; --out names the folder"},
-      {"HiddenName", kShow + "output: {name: .a}\n",
-       "3:16: output.name may not begin with a dot, which hides files"},
-      {"LongName", kShow + "output: {name: " + std::string(201, 'x') + "}\n",
-       "3:16: output.name may have 200 bytes, got 201"},
-      {"StartBelowZero", kShow + "output: {start: -1}\n",
-       "3:17: output.start must be at least 0, got -1"},
-      {"NoDigits", kShow + "output: {digits: 0}\n",
-       "3:18: output.digits must be at least 1, got 0"},
-      {"LargeFolders", kShow + "output: {per_folder: 10001}\n",
-       "3:22: output.per_folder must be at most 10000, got 10001"},
-      {"QualityOfAPng", kShow + "output: {graded: png8, quality: 90}\n",
+      {"output: {name: .a}", "3:16: output.name may not begin with a dot, which hides files"},
+      {"output: {start: -1}", "3:17: output.start must be at least 0, got -1"},
+      {"output: {digits: 0}", "3:18: output.digits must be at least 1, got 0"},
+      {"output: {per_folder: 10001}", "3:22: output.per_folder must be at most 10000, got 10001"},
+      {"output: {graded: png8, quality: 90}",
        "3:33: output.quality is that of a JPEG; say graded: jpeg, or leave it out"},
-      {"QualityZero", kShow + "output: {graded: jpeg, quality: 0}\n",
-       "3:33: output.quality must be at least 1, got 0"},
+      {"output: {graded: jpeg, quality: 0}", "3:33: output.quality must be at least 1, got 0"},
+  });
+  expect_complaints_behind_hole({
+      {"timeline:\n  - duration_s: 1\n    trajectory: {type: static, r: 9}\n    grade: {view: "
+       "Dome}",
+       "5:13: timeline[1].grade.view is an unknown key; known here: cdl"},
+  });
+  expect_complaints({
+      {kShow + "output: {name: " + std::string(201, 'x') + "}\n",
+       "3:16: output.name may have 200 bytes, got 201"},
   });
 }
 

@@ -1,5 +1,5 @@
 // Tests of the keys of a show file that say what its skies show, and of their defaults.
-#include "tests/pipeline/show/show_keys.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -11,8 +11,8 @@ TEST_F(ShowSkyKeys, RegionThreeIsLikeRegionOneButForWhatItSays) {
   write("art/stars.csv", "");
   const Show show = with(
       "sky:\n"
-      "  region_I: {background: art/sky.png, gain: 2,"
-      " stars: {catalogue: art/stars.csv, max_magnitude: 9, gain: 3}}\n"
+      "  region_I: {background: art/sky.png, gain: 2, stars: {catalogue: art/stars.csv, "
+      "max_magnitude: 9, gain: 3}}\n"
       "  region_III: {background: grid, stars: {max_magnitude: 4}}\n"
       "  blueshift_power: 3.5\n"
       "  epoch: 2026.5\n");
@@ -70,8 +70,8 @@ TEST_F(ShowSkyKeys, SkiesMayBeBlackAndStarless) {
     EXPECT_FALSE(sky.stars);
   }
   const Show back = with(
-      "sky: {region_I: {background: black, stars: none},"
-      " region_III: {background: milky_way, stars: naked_eye}}\n");
+      "sky: {region_I: {background: black, stars: none}, region_III: {background: milky_way, "
+      "stars: naked_eye}}\n");
   EXPECT_EQ(std::get<PanoramaSky>(back.sky[SkyRegion::kIII].background).image,
             asset("milky_way.sky"));
   EXPECT_EQ(back.sky[SkyRegion::kIII].stars->catalogue, asset("stars_to_9.stars"));

@@ -1,9 +1,8 @@
-#include "pipeline/show/show_time.h"
+#include "pipeline/show/file/show_time.h"
 
 #include <gtest/gtest.h>
 
-#include "pipeline/show/frame_state.h"
-#include "tests/pipeline/show/show_mistakes.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -65,34 +64,33 @@ TEST_F(ShowTimes, MistakesInThemAreTold) {
     return "timeline: [{duration_s: " + text + "}]\n";
   };
   expect_complaints({
-      {"SixtySeconds", lasting("0:60"),
-       "1:25: timeline[1].duration_s must be seconds, or minutes and seconds such as 1:02.5, "
-       "got '0:60'"},
-      {"Zero", lasting("0:00"), "1:25: timeline[1].duration_s must exceed 0 (seconds), got 0:00"},
-      {"Quoted", lasting("'34'"),
+      {lasting("0:60"),
+       "1:25: timeline[1].duration_s must be seconds, or minutes and seconds such as 1:02.5, got "
+       "'0:60'"},
+      {lasting("0:00"), "1:25: timeline[1].duration_s must exceed 0 (seconds), got 0:00"},
+      {lasting("'34'"),
        "1:25: timeline[1].duration_s must be a number (seconds), got the text '34'; leave the "
        "quotes out"},
-      {"UnknownMarker", markers + "timeline: [{duration_s: doro}]\n",
+      {markers + "timeline: [{duration_s: doro}]\n",
        "2:25: timeline[1].duration_s names a marker that the show does not have: 'doro'; did you "
        "mean door?"},
-      {"MarkerBehindTheEnd", markers + lasting("20"),
+      {markers + lasting("20"),
        "1:17: markers.door lies behind the end of the show at 20 s, got 0:34"},
-      {"MarkerBeforeTheSegment", markers + "timeline: [{duration_s: 40}, {duration_s: door}]\n",
+      {markers + "timeline: [{duration_s: 40}, {duration_s: door}]\n",
        "2:43: timeline[2].duration_s names the marker 'door', which lies at 34 s, where it must be "
        "after 40 s"},
-      {"MarkerBehindTheSegment",
-       markers + "timeline:\n"
+      {markers + "timeline:\n"
                  "  - {duration_s: 10, keyframes: [{at_s: door, exposure: {ev: 1}}]}\n"
                  "  - {duration_s: 40}\n",
        "3:41: timeline[1].keyframes[1].at_s names the marker 'door', which lies at 34 s, where it "
        "must be at most 10 s"},
-      {"MarkerNamedLikeATime", "markers: {0:34: 20}\n" + lasting("30"),
+      {"markers: {0:34: 20}\n" + lasting("30"),
        "1:17: markers.0:34 has a name that is a time itself; begin it with a letter"},
-      {"MarkerWithoutATime", "markers: {door: open}\n" + lasting("30"),
+      {"markers: {door: open}\n" + lasting("30"),
        "1:17: markers.door must be a number (seconds), got 'open'"},
-      {"MarkersInAList", "markers: [0:34]\n" + lasting("30"),
+      {"markers: [0:34]\n" + lasting("30"),
        "1:10: markers must be a map of names and times, e.g. {door_opens: 0:34}, got a list"},
-      {"RepeatedMarker", "markers: {a: 1, a: 2}\n" + lasting("30"), "1:17: markers.a is repeated"},
+      {"markers: {a: 1, a: 2}\n" + lasting("30"), "1:17: markers.a is repeated"},
   });
 }
 

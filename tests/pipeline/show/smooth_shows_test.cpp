@@ -13,8 +13,8 @@
 #include <iterator>
 #include <vector>
 
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/hole_optics.h"
+#include "pipeline/light/aberration.h"
+#include "pipeline/light/hole_optics.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/observer_track.h"
 #include "tests/pipeline/show/show_file.h"

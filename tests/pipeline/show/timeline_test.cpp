@@ -1,7 +1,7 @@
 // Tests of segments, their clocks, and how they join.
 #include <cmath>
 
-#include "tests/pipeline/show/observed_show.h"
+#include "tests/pipeline/show/show_file.h"
 #include "trajectories/degree.h"
 
 namespace domefall {
@@ -15,9 +15,7 @@ TEST_F(Timelines, ASegmentGoesFromOneRadiusToAnother) {
        {"type: parabolic, periastron: 5", "type: hyperbolic, v_inf: 0.3, periastron: 4.5",
         "type: bound, periastron: 5, apoastron: 40", "type: infall, angular_momentum: 3",
         "type: infall, rest_r: 50, angular_momentum: 2",
-        "type: infall, v_inf: 0.5, "
-        "impact_parameter: 3",
-        "type: infall"}) {
+        "type: infall, v_inf: 0.5, impact_parameter: 3", "type: infall"}) {
     const Show s = show("  - {duration_s: 20, trajectory: {" + std::string(orbit) +
                         ", from_r: 30, to_r: 6}}\n");
     EXPECT_NEAR(at(s, 0).r, 30, 1e-9) << orbit;

@@ -1,6 +1,5 @@
 // Tests of the titles of show files: what their keys mean, and what is said of mistakes.
-#include "tests/pipeline/show/show_keys.h"
-#include "tests/pipeline/show/show_mistakes.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -73,32 +72,31 @@ TEST_F(Titles, HaveLinesAPlaceALookAndALight) {
 
 TEST_F(TitleMistakes, AreToldWithTheirPlaces) {
   const auto title = [](const std::string& keys) { return kShow + "titles: [{" + keys + "}]\n"; };
+  expect_complaints_of_lines({
+      {"titles: Sirius", "3:9: titles must be a list of at least one entry, got 'Sirius'"},
+  });
   expect_complaints({
-      {"no list", kShow + "titles: Sirius\n",
-       "3:9: titles must be a list of at least one entry, got 'Sirius'"},
-      {"no text", title("at_s: 1"), "3:10: titles[1].text is missing, e.g. text: Sagittarius A*"},
-      {"empty", title("text: ' '"), "3:17: titles[1].text must not be empty"},
-      {"a tab", title("text: \"a\\tb\""),
+      {title("at_s: 1"), "3:10: titles[1].text is missing, e.g. text: Sagittarius A*"},
+      {title("text: ' '"), "3:17: titles[1].text must not be empty"},
+      {title("text: \"a\\tb\""),
        "3:17: titles[1].text may have no control characters but ends of lines, got 'a b'"},
-      {"misspelt", title("text: a, hight_deg: 3"),
+      {title("text: a, hight_deg: 3"),
        "3:20: titles[1].hight_deg is an unknown key; did you mean height_deg?"},
-      {"behind the end", title("text: a, at_s: 2"),
-       "3:26: titles[1].at_s must stay below 2 (seconds), got 2"},
-      {"too long", title("text: a, at_s: 1.5, duration_s: 1"),
+      {title("text: a, at_s: 2"), "3:26: titles[1].at_s must stay below 2 (seconds), got 2"},
+      {title("text: a, at_s: 1.5, duration_s: 1"),
        "3:43: titles[1].duration_s must be at most 0.5 (seconds), got 1"},
-      {"fades", title("text: a, at_s: 1, fade_in_s: 0.8, fade_out_s: 0.4"),
+      {title("text: a, at_s: 1, fade_in_s: 0.8, fade_out_s: 0.4"),
        "3:57: titles[1].fade_out_s makes 1.2 s of fades, but the title lasts 1 s"},
-      {"height", title("text: a, height_deg: 0"),
+      {title("text: a, height_deg: 0"),
        "3:32: titles[1].height_deg must exceed 0 (degrees), got 0"},
-      {"elevation", title("text: a, elevation_deg: 95"),
+      {title("text: a, elevation_deg: 95"),
        "3:35: titles[1].elevation_deg must be at most 90 (degrees), got 95"},
-      {"align", title("text: a, align: center"),
+      {title("text: a, align: center"),
        "3:27: titles[1].align must be left, centre or right, got 'center'; did you mean centre?"},
-      {"colour", title("text: a, colour: red"),
+      {title("text: a, colour: red"),
        "3:28: titles[1].colour must be a list of 3 numbers, got 'red'"},
-      {"colour's range", title("text: a, colour: [1, 2, 0]"),
-       "3:32: titles[1].colour[2] must be at most 1, got 2"},
-      {"in a segment", "timeline: [{duration_s: 2, titles: [{text: a, brightness: -1}]}]\n",
+      {title("text: a, colour: [1, 2, 0]"), "3:32: titles[1].colour[2] must be at most 1, got 2"},
+      {"timeline: [{duration_s: 2, titles: [{text: a, brightness: -1}]}]\n",
        "1:59: timeline[1].titles[1].brightness must be at least 0 (pixel values), got -1"},
   });
 }

@@ -8,9 +8,9 @@
 #include <cstring>
 #include <random>
 
-#include "pipeline/image/encode/side_by_side.h"
+#include "pipeline/base/new_file.h"
+#include "pipeline/base/side_by_side.h"
 #include "pipeline/image/frame_buffer.h"
-#include "pipeline/image/new_file.h"
 #include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
@@ -35,7 +35,7 @@ class ExrWriter : public TestFolder {
     NewFile file(path);
     write_exr(file, {frame.width,
                      frame.height,
-                     frame.pixels.data(),
+                     interleaved({"R", "G", "B"}, frame.pixels.data()),
                      compression,
                      {{"digest", std::string("0123")}, {"rate", ExrRational{30000, 1001}}}});
     file.commit();
@@ -106,7 +106,7 @@ TEST_F(ExrWriter, GivesBackOtherChannelsByTheirNames) {
   for (const Compression& compression : kCompressions) {
     const auto path = folder_ / "channels.exr";
     NewFile file(path);
-    write_exr(file, {kWidth, kHeight, pixels.data(), compression.ours, {}, names});
+    write_exr(file, {kWidth, kHeight, interleaved(names, pixels.data()), compression.ours});
     file.commit();
     const auto in = OIIO::ImageInput::open(path.string());
     ASSERT_TRUE(in) << OIIO::geterror();
@@ -122,6 +122,36 @@ TEST_F(ExrWriter, GivesBackOtherChannelsByTheirNames) {
             << names[c] << " " << compression.name;
     }
   }
+}
+
+// A layer's colours are halves, and its alpha is a float.
+TEST_F(ExrWriter, GivesBackHalvesBesideFloats) {
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(70, 67), std::pair(5, 33)})
+    for (const Compression& compression : kCompressions) {
+      const HalfFrame frame = random_bits(width, height);
+      std::vector<float> alpha(frame.pixels.size() / 3);
+      for (std::size_t k = 0; k < alpha.size(); ++k) alpha[k] = 1 / (1 + static_cast<float>(k));
+      const auto path = folder_ / "mixed.exr";
+      NewFile file(path);
+      std::vector<ExrChannel> channels =
+          interleaved({"disc.R", "disc.G", "disc.B"}, frame.pixels.data());
+      channels.push_back({"disc.A", alpha.data()});
+      write_exr(file, {width, height, channels, compression.ours});
+      file.commit();
+      const auto in = OIIO::ImageInput::open(path.string());
+      ASSERT_TRUE(in) << OIIO::geterror();
+      std::vector<float> read(4 * alpha.size());
+      ASSERT_TRUE(in->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, read.data()));
+      const auto place = [&](const char* name) {
+        return static_cast<std::size_t>(in->spec().channelindex(name));
+      };
+      for (std::size_t k = 0; k < alpha.size(); ++k) {
+        ASSERT_EQ(read[4 * k + place("disc.A")], alpha[k]) << compression.name;
+        for (std::size_t c = 0; c < 3; ++c)
+          ASSERT_EQ(read[4 * k + place(channels[c].name.c_str())], float{frame.pixels[3 * k + c]})
+              << compression.name;
+      }
+    }
 }
 
 // Blocks are written in the order in which they lie in the picture, whoever is ready first.

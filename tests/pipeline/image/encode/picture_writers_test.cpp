@@ -1,18 +1,20 @@
 // PNG, TIFF and JPEG, as another program's readers see them.
+#include "pipeline/image/encode/picture_writers.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <lcms2.h>
 
 #include <cmath>
+#include <iostream>
+#include <map>
 #include <random>
 
-#include "pipeline/image/digest.h"
-#include "pipeline/image/encode/jpeg_writer.h"
-#include "pipeline/image/encode/png_writer.h"
-#include "pipeline/image/encode/side_by_side.h"
+#include "pipeline/base/digest.h"
+#include "pipeline/base/new_file.h"
+#include "pipeline/base/side_by_side.h"
+#include "pipeline/image/encode/display_colour.h"
 #include "pipeline/image/frame_buffer.h"
-#include "pipeline/image/new_file.h"
-#include "pipeline/image/tiff_writer.h"
 #include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {
@@ -131,15 +133,89 @@ TEST_F(PictureWriters, KeepFineColoursAsJpeg) {
   }
 }
 
-// cli/packed_bytes.sh runs this for other processors.
-TEST_F(PictureWriters, GivesTheBytesThatItGivesElsewhere) {
+// cli/packed_bytes.sh compares what this prints with what it prints on other processors.
+TEST_F(PictureWriters, PackIntoTheSameBytesByAnyNumberOfThreads) {
   const GradedFrame frame = gradient_frame(300, 200);
-  set_encoder_threads(2);
-  Digest digest;
-  for (const bool eight_bits : {false, true})
-    digest.add(contents(png(frame, eight_bits))).add(contents(tiff(frame, eight_bits)));
-  digest.add(contents(jpeg(frame, 95)));
-  EXPECT_EQ(digest.hex(), "882a5f33e15da9f21995d1db6aaede17");
+  const auto digest_by = [&](int threads) {
+    set_encoder_threads(threads);
+    Digest digest;
+    for (const bool eight_bits : {false, true})
+      digest.add(contents(png(frame, eight_bits))).add(contents(tiff(frame, eight_bits)));
+    digest.add(contents(jpeg(frame, 95)));
+    return digest.hex();
+  };
+  const std::string packed = digest_by(2);
+  EXPECT_EQ(digest_by(1), packed);
+  std::cout << "packed bytes: " << packed << "\n";
+}
+
+using Curve = DisplayColour::Curve;
+constexpr DisplayColour kDome22{Curve::kPower, 2.2, kRec709Places},
+    kCinema{Curve::kPower, 2.6, kP3D65Places}, kScreen{Curve::kSrgb, 2.2, kRec709Places};
+
+std::map<std::string, std::string> chunks_of(const DisplayColour& colour) {
+  std::map<std::string, std::string> chunks;
+  for (const PngChunk& chunk : png_colour_chunks(colour))
+    chunks[std::string(chunk.name)] = chunk.data;
+  return chunks;
+}
+
+unsigned number_at(const std::string& bytes, std::size_t k = 0) {
+  unsigned value = 0;
+  for (std::size_t at = 4 * k; at < 4 * k + 4; ++at)
+    value = value << 8 | static_cast<unsigned char>(bytes[at]);
+  return value;
+}
+
+TEST(DisplayColourChunks, SayThePowerOfADomeAndNotSrgb) {
+  auto chunks = chunks_of(kDome22);
+  EXPECT_EQ(number_at(chunks["gAMA"]), 45455U);
+  EXPECT_EQ(number_at(chunks["cHRM"], 0), 31270U);  // the white comes first
+  EXPECT_EQ(number_at(chunks["cHRM"], 2), 64000U);
+  EXPECT_FALSE(chunks.contains("sRGB"));
+}
+
+TEST(DisplayColourChunks, SayThePowerAndThePrimariesOfACinema) {
+  auto chunks = chunks_of(kCinema);
+  EXPECT_FALSE(chunks.contains("sRGB"));
+  EXPECT_EQ(number_at(chunks["gAMA"]), 38462U);
+  EXPECT_EQ(number_at(chunks["cHRM"], 2), 68000U);
+}
+
+TEST(DisplayColourChunks, SaySrgbOfSrgbAlone) {
+  auto chunks = chunks_of(kScreen);
+  EXPECT_EQ(chunks["sRGB"], std::string(1, '\0'));
+}
+
+// As another program converts codes by it: to the light of the display.
+TEST(IccProfiles, TakeCodesToTheLightOfTheDisplay) {
+  for (const DisplayColour& colour : {kDome22, kCinema, kScreen}) {
+    const std::string bytes = icc_profile(colour);
+    const auto profile = cmsOpenProfileFromMem(bytes.data(), static_cast<unsigned>(bytes.size()));
+    ASSERT_TRUE(profile);
+    const auto xyz = cmsCreateXYZProfile();
+    const auto transform = cmsCreateTransform(profile, TYPE_RGB_DBL, xyz, TYPE_XYZ_DBL,
+                                              INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_NOOPTIMIZE);
+    ASSERT_TRUE(transform);
+    for (const double code : {0.02, 0.1, 0.5, 0.9}) {
+      const double grey[] = {code, code, code};
+      double light[3] = {};
+      cmsDoTransform(transform, grey, light, 1);
+      const double wanted = colour.curve == Curve::kPower ? std::pow(code, colour.gamma)
+                            : code <= 0.04045             ? code / 12.92
+                                                          : std::pow((code + 0.055) / 1.055, 2.4);
+      EXPECT_NEAR(light[1], wanted, 1e-4) << code;
+    }
+    cmsDeleteTransform(transform);
+    cmsCloseProfile(xyz);
+    cmsCloseProfile(profile);
+  }
+}
+
+TEST(IccProfiles, HaveNoMomentOfTheirMaking) {
+  const std::string bytes = icc_profile(kDome22);
+  EXPECT_EQ(bytes.substr(24, 12), std::string("\x07\xb2\0\x01\0\x01\0\0\0\0\0\0", 12));
+  EXPECT_EQ(bytes, icc_profile(kDome22));
 }
 
 }  // namespace

@@ -9,6 +9,12 @@
 
 namespace domefall {
 
+// Gauss-Legendre quadrature by 4 points between -1 and 1.
+inline constexpr double kGaussPoints[] = {-0.8611363115940526, -0.3399810435848563,
+                                          0.3399810435848563, 0.8611363115940526};
+inline constexpr double kGaussWeights[] = {0.3478548451374538, 0.6521451548625461,
+                                           0.6521451548625461, 0.3478548451374538};
+
 // All the pixels of an image with nothing but blobs.
 struct DrawnBlobs {
   Projection projection;

@@ -16,16 +16,12 @@ using std::numbers::pi;
 // The mean of exp(-d P d / 2) over a pixel, by 4 points of Gauss-Legendre quadrature along each
 // axis of each of 16 parts.
 double mean_over_pixel(const BlobShape& s, double x, double y) {
-  constexpr double kAt[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                            0.8611363115940526};
-  constexpr double kShare[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                               0.3478548451374538};
   double sum = 0;
   for (int part = 0; part < 16; ++part)
     for (int k = 0; k < 16; ++k) {
-      const double u = x + ((part % 4) - 1.5 + kAt[k % 4] / 2) / 4;
-      const double v = y + ((part / 4) - 1.5 + kAt[k / 4] / 2) / 4;
-      sum += kShare[k % 4] * kShare[k / 4] / 4 / 16 *
+      const double u = x + ((part % 4) - 1.5 + kGaussPoints[k % 4] / 2) / 4;
+      const double v = y + ((part / 4) - 1.5 + kGaussPoints[k / 4] / 2) / 4;
+      sum += kGaussWeights[k % 4] * kGaussWeights[k / 4] / 4 / 16 *
              std::exp(-(s.bare_xx * u * u + 2 * s.bare_xy * u * v + s.bare_yy * v * v) / 2);
     }
   return sum;

@@ -38,16 +38,12 @@ StarImage image_on(const PixelPosition& at, double flux) {
 // the cut, by 4 points of Gauss-Legendre quadrature along each axis.
 double mean_of_cap(const Projection& p, const CameraDirection& star, double sigma, double peak,
                    int column, int row) {
-  constexpr double kAt[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                            0.8611363115940526};
-  constexpr double kShare[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                               0.3478548451374538};
   const double cut = cut_of(peak);
   double sum = 0, whole = 0;
   for (int k = 0; k < 16; ++k) {
-    const PixelPosition at{column + 1 + kAt[k % 4] / 2, row + 1 + kAt[k / 4] / 2};
+    const PixelPosition at{column + 1 + kGaussPoints[k % 4] / 2, row + 1 + kGaussPoints[k / 4] / 2};
     const double c2 = (direction_at(p, at).v - star.v).length2();
-    const double part = kShare[k % 4] * kShare[k / 4] * pixel_solid_angle(p, at);
+    const double part = kGaussWeights[k % 4] * kGaussWeights[k / 4] * pixel_solid_angle(p, at);
     sum += part * std::max(0.0, std::exp(-c2 / (2 * sigma * sigma)) - cut);
     whole += part;
   }
@@ -64,7 +60,7 @@ TEST(BlobsInEveryProjection, AreRoundInAngle) {
       if (k % 5 == 1) at.i = k % 2 == 0 ? 0.6 : columns(p) + 0.3;
       if (k % 5 == 2) at.j = k % 2 == 0 ? 0.7 : rows(p) + 0.2;
       at = pixel_of(p, direction_at(p, at)).value();  // beyond a seam it is on the other side
-      const double pixel = central_pixel_angle(p), sigma = pixel * (k % 3 == 0   ? 0.95
+      const double pixel = largest_pixel_angle(p), sigma = pixel * (k % 3 == 0   ? 0.95
                                                                     : k % 3 == 1 ? 2.5
                                                                                  : 9);
       const double peak = k % 4 == 0 ? 0.02 : 5;
@@ -99,7 +95,7 @@ TEST(BlobsInEveryProjection, BringTheirLightWhereverTheyLie) {
   std::mt19937 random(2);
   for (const Projection& p :
        {Projection(Equirectangular{400}), Projection(Fisheye{400, 400, 2 * pi, 0})}) {
-    const PointSpread widths = cap_widths(p, 1.2 * central_pixel_angle(p));
+    const PointSpread widths = cap_widths(p, 1.2 * largest_pixel_angle(p));
     for (int k = 0; k < tries(80, 10); ++k) {
       V3d n = random_direction(random);
       if (k % 8 == 0) n = V3d(1e-3 * n.x, 1e-3 * n.y, k % 16 == 0 ? 1 : -1).normalized();
@@ -117,7 +113,7 @@ TEST(BlobsInEveryProjection, BringTheirLightWhereverTheyLie) {
 // A point of a pixel there has no distance from the middle.
 TEST(BlobsInEveryProjection, AreFiniteInTheVeryMiddleOfAFisheye) {
   const Projection p = Fisheye{65, 65, 0.1, 0};
-  const PointSpread widths = cap_widths(p, 17 * central_pixel_angle(p));
+  const PointSpread widths = cap_widths(p, 17 * largest_pixel_angle(p));
   const DrawnBlobs image = drawn({image_on({33, 33}, flux_of_peak(widths, 1))}, p, widths);
   EXPECT_NEAR(image.at(32, 32), 1, 3e-3);
   EXPECT_NEAR(image.at(32, 33), image.at(32, 32), 3e-3);
@@ -135,7 +131,7 @@ TEST(ExactCaps, AreTheCapsOfADomeAndAFlatImage) {
     for (int k = 0; k < tries(20, 4); ++k) {
       CapBlob cap{};
       cap.x = static_cast<float>(u(random)), cap.y = static_cast<float>(v(random));
-      cap.sigma = static_cast<float>((k % 2 == 0 ? 1.5 : 8) * central_pixel_angle(p));
+      cap.sigma = static_cast<float>((k % 2 == 0 ? 1.5 : 8) * largest_pixel_angle(p));
       const double light = 10 * 2 * pi * cap.sigma * cap.sigma;
       for (int c = 0; c < 3; ++c) cap.rgb[c] = static_cast<float>(light * (1 + c));
       cap.paling = k % 3 == 0 ? 0.1f : 0.0f;

@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include "pipeline/colour/blackbody.h"
-#include "pipeline/report/reference/reference_disc.h"
+#include "pipeline/sources/colour/blackbody.h"
 #include "tests/pipeline/render/disc/disc_views.h"
+#include "tests/pipeline/render/disc/reference_disc.h"
 #include "tests/sanitized.h"
 
 namespace domefall {

@@ -1,9 +1,9 @@
-// Rows of pixels before a disc, most of which are drawn by cubics, against each pixel by itself.
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "pipeline/render/disc/disc_pass.h"
+#include "pipeline/render/disc/rim_coverage.h"
 #include "tests/pipeline/render/disc/disc_views.h"
 #include "tests/sanitized.h"
 
@@ -18,9 +18,9 @@ struct Drawn {
 Drawn drawn_row(const DiscView& view, const Projection& projection) {
   const Show show = disc_show(view, projection);
   const FrameState state = frame_state(show, 0);
-  const HoleOptics optics = make_hole_optics(view.at.r, view.at.tetrad, {});
   const DiscLight light(*show.disc);
-  const FrameScene scene(show, state, plan_frame(show, state), optics, {}, {}, &light);
+  const FrameScene scene(show, state, plan_frame(show, state),
+                         lens_of(state.observer, WantedSkies{}, show.effects), {}, {}, &light);
   const DiscPass pass(scene);
   const int width = columns(projection), height = rows(projection);
   Drawn frames{FloatImage(width, height), FloatImage(width, height)};
@@ -66,6 +66,32 @@ TEST(DiscRow, IsThatOfItsPixels) {
     }
   }
   EXPECT_GT(differ, 1000);
+}
+
+// The light of a line that crosses rows of pixels, or diagonals, `apart` pixels from one another.
+double light_of_line(double at, double apart) {
+  constexpr double kWidth = 1e-3;
+  double sum = 0;
+  for (int k = -4; k <= 4; ++k)
+    sum += beyond_rim(at + kWidth - k * apart) - beyond_rim(at - k * apart);
+  return sum * apart / kWidth;
+}
+
+TEST(RimCoverage, OfALineIsTheSameWhereverItLies) {
+  for (double at = -0.5; at <= 0.5; at += 0.01) {
+    EXPECT_NEAR(light_of_line(at, 1), 1, 1e-9) << at;
+    EXPECT_NEAR(light_of_line(at, std::sqrt(0.5)), 1, 1e-9) << at;
+    // Rows two columns long, between which it steps: the next pattern of parallel lines of pixels.
+    EXPECT_NEAR(light_of_line(at, std::sqrt(0.2)), 1, 0.04) << at;
+  }
+}
+
+TEST(RimCoverage, HasAnInverse) {
+  for (double off = -kRimReach; off <= kRimReach; off += 0.01)
+    EXPECT_NEAR(distance_to_rim(beyond_rim(off)), off, 1e-7);
+  EXPECT_EQ(distance_to_rim(0.5), 0);
+  EXPECT_EQ(beyond_rim(1), 1);
+  EXPECT_EQ(beyond_rim(-1), 0);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/disc/disc.h"
 #include "pipeline/render/scene/exposure.h"
+#include "pipeline/sources/disc/disc.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
@@ -31,7 +31,7 @@ inline V3d celerity_of_rest(double r) {
 // A show of that disc before a black sky.
 inline Show disc_show(const DiscView& view, const Projection& projection) {
   Show show = show_of(view.at, projection);
-  show.mass_solar = 4.3e6;
+  show.spacetime = Schwarzschild{4.3e6};
   show.disc = view.disc;
   show.disc->normal = {
       apply(frame_state(show, 0).observer.sky_from_tetrad, view.normal.normalized())};

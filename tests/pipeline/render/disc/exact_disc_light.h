@@ -7,10 +7,9 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <vector>
 
-#include "pipeline/disc/disc_light.h"
-#include "pipeline/disc/disc_shift.h"
-#include "pipeline/optics/aberration.h"
-#include "pipeline/optics/ray_position.h"
+#include "pipeline/light/aberration.h"
+#include "pipeline/light/ray_position.h"
+#include "pipeline/sources/disc/disc_light.h"
 #include "tests/pipeline/render/disc/disc_views.h"
 
 namespace domefall {

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "pipeline/render/frame_key.h"
-#include "pipeline/render/overlay/text_surface.h"
+#include "pipeline/render/overlay/bent_text.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
@@ -30,17 +30,6 @@ Show titled(const Title& title, const Projection& projection, double tilt = 0) {
   show.timeline[0].camera.dome_tilt = tilt;
   show.titles = {title};
   return show;
-}
-
-HalfFrame frame_of(const Show& show, int number = 0) {
-  return Renderer(show, 1).render(frame_state(show, number));
-}
-
-// Where the audience's azimuth and elevation are, for a dome that is level: the zenith in the
-// middle, the front at the bottom, the right hand at the right.
-CameraDirection on_dome(double azimuth, double elevation) {
-  return {{std::cos(elevation) * std::sin(azimuth), std::cos(elevation) * std::cos(azimuth),
-           std::sin(elevation)}};
 }
 
 // The sum of `value` of all pixels, weighted by their light and solid angle.
@@ -72,7 +61,7 @@ TEST(FrameTitles, StandWhereTheShowSays) {
     for (const double elevation : {12., 45., 75., 90.}) {
       const auto middle =
           middle_of_light(frame_of(titled(title_of("O", azimuth, elevation, 8), dome)), dome);
-      const auto expected = on_dome(azimuth * kDegree, elevation * kDegree);
+      const auto expected = on_dome(azimuth, elevation);
       // Mercator's scale grows towards the pole, so that the upper half is smaller: by some
       // hundredths of the letter's height.
       EXPECT_LT((middle.v - expected.v).length(), 0.35 * kDegree) << azimuth << ", " << elevation;
@@ -83,7 +72,7 @@ TEST(FrameTitles, LeanWithTheDome) {
   const Domemaster dome{256};
   const auto middle =
       middle_of_light(frame_of(titled(title_of("O", 0, 30, 8), dome, 20 * kDegree)), dome);
-  EXPECT_LT((middle.v - on_dome(0, 50 * kDegree).v).length(), 0.35 * kDegree);
+  EXPECT_LT((middle.v - on_dome(0, 50).v).length(), 0.35 * kDegree);
   // To the right of a dome that leans to the front a level place is no higher.
   const auto right =
       middle_of_light(frame_of(titled(title_of("O", 90, 30, 8), dome, 20 * kDegree)), dome);
@@ -107,8 +96,8 @@ TEST(FrameTitles, AreUprightForThoseWhoTurnTowardsThem) {
       const Show show = titled(title, dome, tilt * kDegree);
       const FrameState state = frame_state(show, 0);
       const M33d& audience = state.camera_from_audience;
-      const double a = azimuth * kDegree, e = 30 * kDegree;
-      const V3d middle = apply(audience, on_dome(a, e).v),
+      const double a = azimuth * kDegree;
+      const V3d middle = apply(audience, on_dome(azimuth, 30).v),
                 right = apply(audience, V3d(std::cos(a), -std::sin(a), 0)),
                 up = middle.cross(right) *
                      (middle.cross(right).dot(column(audience, 2)) > 0 ? 1 : -1);
@@ -192,7 +181,7 @@ TEST(FrameTitles, FadeEvenlyToTheEyeAndEndWithTheirTime) {
   show.titles[0].light = {2, 1, 0.5f};
   show.frames_per_second = 40;
   const HalfFrame half = frame_of(show, 12), whole = frame_of(show, 20);
-  const auto pixel = pixel_of(show.projection, on_dome(0, 30 * kDegree));
+  const auto pixel = pixel_of(show.projection, on_dome(0, 30));
   const int at = 3 * (static_cast<int>(pixel->i) - 1), row = static_cast<int>(pixel->j) - 1;
   EXPECT_NEAR(whole.row(row)[at], 2, 1e-3);
   EXPECT_NEAR(whole.row(row)[at + 2], 0.5, 1e-3);
@@ -205,7 +194,7 @@ TEST(FrameTitles, CoverWhatIsBehindAndAreNotFadedWithIt) {
   Show show = titled(title, Domemaster{64});
   show.sky[SkyRegion::kI].background = GridSky{};
   show.timeline[0].trajectory = StaticObserver{1000};
-  const auto pixel = pixel_of(show.projection, on_dome(0, 45 * kDegree));
+  const auto pixel = pixel_of(show.projection, on_dome(0, 45));
   const int at = 3 * (static_cast<int>(pixel->i) - 1), row = static_cast<int>(pixel->j) - 1;
   EXPECT_EQ(static_cast<float>(frame_of(show).row(row)[at]), 0);
   show.titles[0].light = {1, 1, 1};

@@ -7,15 +7,11 @@
 namespace domefall {
 namespace {
 
-struct View {
-  FrameState state;
-  HoleOptics optics;
-};
-
-View view_of(const GivenVelocity& at, const Projection& projection) {
-  const FrameState state = frame_state(show_of(at, projection), 0);
-  return {state, make_hole_optics(at.r, at.tetrad, {true, true, true})};
+FrameState view_of(const GivenVelocity& at, const Projection& projection) {
+  return frame_state(show_of(at, projection), 0);
 }
+
+const WantedSkies kAllSkies{{true, true, true}};
 
 const std::vector<GivenVelocity> kObservers{
     {Region::kI, Tetrad::kRain, 30, V3d(0, 0, 0)},
@@ -32,9 +28,9 @@ const std::vector<GivenVelocity> kObservers{
 TEST(SkyBorders, AreWhereTracedRaysChangeTheirSky) {
   std::mt19937 random(6);
   for (const GivenVelocity& at : kObservers) {
-    const View view = view_of(at, Domemaster{512});
-    const ViewTracer tracer(view.state, view.optics);
-    const SkyBorders borders(view.state, view.optics, tracer.vantage());
+    const FrameState view = view_of(at, Domemaster{512});
+    const ViewTracer tracer(view, kAllSkies);
+    const SkyBorders borders(tracer, view.projection);
     ASSERT_TRUE(borders.usable());
     int seen[2] = {0, 0}, partly = 0;
     for (int k = 0; k < 20'000; ++k) {
@@ -66,9 +62,8 @@ TEST(SkyBorders, KnowWhatNeighbourhoodsSee) {
   std::uniform_real_distribution<double> u(0, 1);
   int skies = 0, dark = 0;
   for (const GivenVelocity& at : kObservers) {
-    const View view = view_of(at, Domemaster{512});
-    const SkyBorders borders(view.state, view.optics,
-                             ViewTracer(view.state, view.optics).vantage());
+    const FrameState view = view_of(at, Domemaster{512});
+    const SkyBorders borders(ViewTracer(view, kAllSkies), view.projection);
     int unsaid = 0;
     for (int k = 0; k < kPlaces; ++k) {
       const CameraDirection n{random_direction(random)};
@@ -97,9 +92,9 @@ TEST(SkyBorders, BoxHoldsAllThatSeesNoSky) {
   for (const Projection& projection :
        {Projection(Domemaster{128}), Projection(Stereographic{160, 90, 1.5})})
     for (const GivenVelocity& at : kObservers) {
-      const View view = view_of(at, projection);
-      const ViewTracer tracer(view.state, view.optics);
-      const SkyBorders borders(view.state, view.optics, tracer.vantage());
+      const FrameState view = view_of(at, projection);
+      const ViewTracer tracer(view, kAllSkies);
+      const SkyBorders borders(tracer, view.projection);
       const std::optional<PixelBox> box = borders.box_without_sky();
       for (int row = 0; row < rows(projection); ++row)
         for (int column = 0; column < columns(projection); ++column) {
@@ -125,9 +120,8 @@ TEST(SkyBorders, BoxHoldsAHoleBehindTheCamera) {
       show.timeline[0].camera.attitude = attitude;
       show.timeline[0].camera.elevation = elevation * kDegree;
       const FrameState state = frame_state(show, 0);
-      const HoleOptics optics = make_hole_optics(r, state.observer.tetrad, {});
-      const ViewTracer tracer(state, optics);
-      const auto box = SkyBorders(state, optics, tracer.vantage()).box_without_sky();
+      const ViewTracer tracer(state, WantedSkies{});
+      const auto box = SkyBorders(tracer, state.projection).box_without_sky();
       for (int row = 0; row < rows(projection); ++row)
         for (int column = 0; column < columns(projection); ++column) {
           const PixelPosition pixel{column + 1.0, row + 1.0};
@@ -149,8 +143,7 @@ TEST(SkyBorders, EndTheBlobsOfStars) {
   show.exposure.ev = 8;
   const FrameState state = frame_state(show, 0);
   const HalfFrame frame = Renderer(show, 2).render(state);
-  const HoleOptics optics = make_hole_optics(state.observer.r, state.observer.tetrad, {});
-  const ViewTracer tracer(state, optics);
+  const ViewTracer tracer(state, WantedSkies{});
   int lit = 0, dark = 0;
   for (int row = 0; row < 256; ++row)
     for (int column = 0; column < 256; ++column) {

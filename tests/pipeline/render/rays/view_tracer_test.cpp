@@ -34,9 +34,7 @@ TEST(ViewTracer, TheBatchTracesAsTheSingleRayIsTraced) {
   std::normal_distribution<double> normal;
   for (const Show& show : tracing_observers()) {
     const FrameState state = frame_state(show, 0);
-    const HoleOptics optics =
-        make_hole_optics(state.observer.r, state.observer.tetrad, {true, true, true, true});
-    const ViewTracer tracer(state, optics);
+    const ViewTracer tracer(state, WantedSkies{{true, true, true}, true});
     ViewRayBatch batch;
     std::array<CameraDirection, ViewRayBatch::kSize> n;
     for (int round = 0; round < 50; ++round) {
@@ -50,7 +48,7 @@ TEST(ViewTracer, TheBatchTracesAsTheSingleRayIsTraced) {
         ASSERT_EQ(batch.sky[k], ray.sky);
         ASSERT_TRUE(ray.known);
         // Near the axis of a lens sin(phi)/sin(delta) amplifies the last bits of both.
-        const double scale = 1 + ray.radial_scale + ray.tangential_scale;
+        const double scale = 1 + ray.scale_along + ray.scale_across;
         ASSERT_LT((batch.sky_direction(k) - ray.sky_direction).length(), 2e-15 * scale);
         if (ray.sky == SkyRegion::kIV) {
           ASSERT_NEAR(batch.emission_time[k], ray.emission_time,
@@ -58,9 +56,26 @@ TEST(ViewTracer, TheBatchTracesAsTheSingleRayIsTraced) {
           ASSERT_NEAR(batch.time_scale[k], ray.time_scale, 1e-9 + 1e-6 * ray.time_scale);
         }
         ASSERT_NEAR(batch.frequency_ratio[k] / ray.frequency_ratio, 1, 1e-13);
-        ASSERT_NEAR(batch.radial_scale[k] / ray.radial_scale, 1, 1e-11);
-        ASSERT_NEAR(batch.tangential_scale[k], ray.tangential_scale, 1e-12 * scale);
+        ASSERT_NEAR(batch.scale_along[k] / ray.scale_along, 1, 1e-11);
+        ASSERT_NEAR(batch.scale_across[k], ray.scale_across, 1e-12 * scale);
         ASSERT_NEAR(batch.sky_direction(k).length(), 1, 1e-14);
+      }
+    }
+  }
+}
+
+TEST(ViewTracer, TheDerivativeOfARayIsThatOfItsNeighbours) {
+  std::mt19937 random(6);
+  for (const Show& show : tracing_observers()) {
+    const FrameState state = frame_state(show, 0);
+    for (const bool lensing : {true, false}) {
+      if (!lensing && !(state.observer.r > 2)) continue;
+      Effects effects;
+      effects.lensing = lensing;
+      const ViewTracer tracer(state, WantedSkies{{true, true, true}}, effects);
+      for (int k = 0; k < 300; ++k) {
+        const V3d n = random_direction(random);
+        expect_derivative_of_neighbours(tracer, n, random_direction(random), 1e-6);
       }
     }
   }
@@ -70,8 +85,7 @@ TEST(ViewTracer, TheBatchTracesAsTheSingleRayIsTraced) {
 TEST(ViewTracer, TheSilhouetteAtTheHorizonHas84Point2DegreesAcross) {
   const Show show = show_of(RadialInfall{2}, Domemaster{64});
   const FrameState state = frame_state(show, 0);
-  const HoleOptics optics = make_hole_optics(state.observer.r, state.observer.tetrad, {});
-  const ViewTracer tracer(state, optics);
+  const ViewTracer tracer(state, WantedSkies{});
   const double edge = std::acos(23.0 / 31);
   for (const double side : {-1e-9, 1e-9}) {
     const double delta = edge + side;

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
 #include "tests/pipeline/show/show_file.h"
 
 namespace domefall {

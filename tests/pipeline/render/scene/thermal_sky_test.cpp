@@ -3,10 +3,10 @@
 #include <cmath>
 #include <memory>
 
-#include "pipeline/colour/blackbody.h"
 #include "pipeline/render/scene/sky_light.h"
 #include "pipeline/render/scene/sky_store.h"
-#include "pipeline/sky/maps/sky_pyramid.h"
+#include "pipeline/sources/colour/blackbody.h"
+#include "pipeline/sources/sky/sky_pyramid.h"
 
 namespace domefall {
 namespace {

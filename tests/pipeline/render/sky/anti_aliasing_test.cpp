@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "pipeline/image/errors.h"
+#include "pipeline/base/errors.h"
 #include "pipeline/render/sky/anti_aliasing_settings.h"
 #include "tests/pipeline/render/scenes.h"
 
@@ -144,7 +144,7 @@ std::vector<double> covered(int size, double fov, double edge) {
 TEST(AntiAliasing, TheSilhouettesEdgeComesNearerToTheCircleWithEachDoubling) {
   constexpr int kSize = 64;
   const double r = 10, edge = std::asin(3 * std::sqrt(3.0) / r * std::sqrt(1 - 2 / r));
-  const PanoramaFile panorama("even", 64, [](int) { return 1.0f; });
+  const PanoramaFile panorama(64, [](int) { return 1.0f; });
   Show show = show_of(StaticObserver{r}, Stereographic{kSize, kSize, 3 * edge});
   show.sky[SkyRegion::kI].background = PanoramaSky{panorama.path()};
   const std::vector<double> exact = covered(kSize, 3 * edge, edge);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/render/sky/sky_pass.h"
-#include "pipeline/sky/make/panorama.h"
+#include "pipeline/sources/sky/panorama.h"
 #include "tests/pipeline/render/scenes.h"
 #include "tests/sanitized.h"
 #include "trajectories/equatorial.h"
@@ -22,7 +22,6 @@ FloatImage clouds() {
 struct GridScene {
   Show show;
   FrameState state;
-  HoleOptics optics;
   Sky sky;
   FrameScene scene;
   PixelShader shader;
@@ -31,10 +30,8 @@ struct GridScene {
   explicit GridScene(const Show& shown)
       : show(shown),
         state(frame_state(show, 0)),
-        optics(make_hole_optics(is_flat(state.observer) ? kFlatSpace : state.observer.r,
-                                state.observer.tetrad, {})),
         sky{std::make_shared<const SkyMap>(map_of_panorama(clouds())), nullptr, {}},
-        scene(scene_with(show, state, optics, {&sky, &sky, nullptr})),
+        scene(scene_with(show, state, {&sky, &sky, nullptr})),
         shader(scene) {
     grid.make(shader, special_directions(scene));
   }
@@ -66,9 +63,8 @@ Worst worst_of(const GridScene& g) {
           if (x < inside.first || x > inside.last) continue;
           const PixelPosition pixel{x + 1.0, y + 1.0};
           const ViewRay ray = g.scene.tracer.trace(direction_at(g.state.projection, pixel));
-          const double width = pixel_angle(g.state.projection, pixel) *
-                               std::max(std::min(ray.radial_scale, ray.tangential_scale),
-                                        0.1 * std::max(ray.radial_scale, ray.tangential_scale));
+          const double width =
+              pixel_angle(g.state.projection, pixel) * std::max(ray.shorter(), 0.1 * ray.longer());
           V3d interpolated(batch.x[k], batch.y[k], batch.z[k]);
           EXPECT_NEAR(interpolated.length(), 1, 0.01);
           interpolated.normalize();

@@ -4,10 +4,10 @@
 
 #include <bit>
 
-#include "pipeline/colour/blackbody.h"
-#include "pipeline/simd/half_row.h"
-#include "pipeline/sky/make/panorama.h"
-#include "pipeline/sky/maps/sky_pyramid.h"
+#include "pipeline/base/simd/half_row.h"
+#include "pipeline/sources/colour/blackbody.h"
+#include "pipeline/sources/sky/panorama.h"
+#include "pipeline/sources/sky/sky_pyramid.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {

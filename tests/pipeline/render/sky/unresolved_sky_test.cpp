@@ -41,9 +41,8 @@ TEST(UnresolvedSkies, AreNotSoughtWhereNothingIsCrowded) {
   const Show show = starry(show_of(StaticObserver{10}, Domemaster{128}));
   const FrameState state = frame_state(show, 0);
   SkyStore store(show);
-  const HoleOptics optics = make_hole_optics(10, Tetrad::kRain, {});
   const UnresolvedSkies found = find_unresolved_skies(scene_with(
-      show, state, optics,
+      show, state,
       {&store.sky(SkyRegion::kI, show.sky[SkyRegion::kI].background, true), nullptr, nullptr}));
   EXPECT_TRUE(found.blobs.empty());
   EXPECT_TRUE(found.darkened.empty());
@@ -58,7 +57,7 @@ double light_of_an_even_sky(double gamma, double aside_pixels, int size, double 
   // The zenith lies along the motion, or `aside_pixels` beside it.
   show.timeline[0].camera.attitude =
       EulerAngles{90 * kDegree, 90 * kDegree - aside_pixels * std::numbers::pi / size, 0};
-  const PanoramaFile panorama("even", 64, [](int) { return 0.5f; });
+  const PanoramaFile panorama(64, [](int) { return 0.5f; });
   show.sky[SkyRegion::kI].background = PanoramaSky{panorama.path()};
   show.effects.lensing = r == kFlatSpace;
   const HalfFrame frame = Renderer(show, 2).render(frame_state(show, 0));

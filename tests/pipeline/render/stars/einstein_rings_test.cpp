@@ -1,8 +1,8 @@
-#include "pipeline/render/stars/einstein_rings.h"
+#include "pipeline/light/einstein_rings.h"
 
 #include <gtest/gtest.h>
 
-#include "pipeline/colour/blackbody.h"
+#include "pipeline/sources/colour/blackbody.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 
 namespace domefall {
@@ -96,7 +96,7 @@ TEST(EinsteinRings, InLineAreARing) {
   std::vector<StarImage> images;
   scene.images().append(bright_star(scene.sky(V3d(-1, 0, 0))), images);
   const V3d hole = apply_transposed(scene.state.observer.tetrad_from_camera, V3d(-1, 0, 0));
-  const double pixel = central_pixel_angle(scene.state.projection);
+  const double pixel = largest_pixel_angle(scene.state.projection);
   const SkyTable& table = *scene.table(false);
   const double ring = alpha_of(table.ray_at_distance(table.distance(pi)));
   std::vector<StarImage> outer;

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/colour/blackbody.h"
+#include <algorithm>
+
+#include "pipeline/light/einstein_rings.h"
 #include "pipeline/render/blobs/cap_blob.h"
-#include "pipeline/render/stars/einstein_rings.h"
+#include "pipeline/render/stars/blackbody_table.h"
+#include "pipeline/sources/colour/blackbody.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 #include "tests/sanitized.h"
 
@@ -207,6 +210,18 @@ TEST(SceneStars, AreTakenUpToTheLimitItself) {
     EXPECT_EQ(stars.count_to_magnitude(v), 1u) << v;
     EXPECT_EQ(stars.count_to_magnitude(v - 1e-3), 0u) << v;
   }
+}
+
+TEST(BlackbodyTable, HasTheColoursOfBlackbodies) {
+  for (double t = 1000; t < 1e10; t *= 1.0013) {
+    const BlackbodyTable::Light seen = blackbody_table()(t);
+    const WorkingRgb wanted = blackbody_colours().per_flux(t);
+    EXPECT_NEAR(seen.luminance / luminance(wanted), 1, t < 3000 ? 5e-4 : 1e-4) << t;
+    EXPECT_NEAR(seen.b, wanted.b, 1e-4 * std::max(wanted.r, wanted.b)) << t;
+    EXPECT_LE(luminance(wanted), blackbody_table().most_luminance());
+  }
+  EXPECT_EQ(blackbody_table()(10).luminance, 0);
+  EXPECT_EQ(blackbody_table()(0).r, 0);
 }
 
 }  // namespace

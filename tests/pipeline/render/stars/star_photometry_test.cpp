@@ -3,9 +3,11 @@
 
 #include <cstdio>
 
-#include "pipeline/colour/blackbody.h"
 #include "pipeline/render/rays/view_tracer.h"
-#include "pipeline/sky/catalogue/star_colour.h"
+#include "pipeline/render/scene/seen_magnitude.h"
+#include "pipeline/render/scene/star_sight.h"
+#include "pipeline/sources/colour/blackbody.h"
+#include "pipeline/sources/stars/star_colour.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 #include "tests/sanitized.h"
 
@@ -53,7 +55,7 @@ Bins even_sky_bins(const StarScene& scene, double radiance, double temperature,
                    const std::vector<double>& limits) {
   constexpr int kFine = 3;  // rays along each side of a pixel
   const Projection fine = refined(scene.state.projection, kFine);
-  const ViewTracer tracer(scene.state, scene.optics);
+  const ViewTracer tracer(scene.state, WantedSkies{});
   const double scale = scene.exposure();
   const V3d hole = hole_of(scene.state);
   Bins bins(limits);
@@ -61,7 +63,8 @@ Bins even_sky_bins(const StarScene& scene, double radiance, double temperature,
   ViewRayBatch batch;
   for (int row = 0; row < rows(fine); ++row) {
     const ColumnRange range = inside_columns(fine, row);
-    inside_directions(fine, row, range, n.data());
+    for (int i = range.first; i <= range.last; ++i)
+      n[static_cast<std::size_t>(i - range.first)] = direction_at(fine, {i + 1.0, row + 1.0});
     for (int first = range.first; first <= range.last; first += ViewRayBatch::kSize) {
       const int count = std::min(ViewRayBatch::kSize, range.last + 1 - first);
       const CameraDirection* at = &n[static_cast<std::size_t>(first - range.first)];
@@ -146,7 +149,7 @@ double part_beyond_edge(const PointSpreadParts& parts, double to_edge) {
 std::vector<double> kept_parts(const StarScene& scene, const std::vector<Star>& stars,
                                const std::vector<double>& limits) {
   const V3d hole = hole_of(scene.state);
-  const ViewTracer tracer(scene.state, scene.optics);
+  const ViewTracer tracer(scene.state, WantedSkies{});
   const PointSpread point_spread = scene.point_spread();
   Bins all(limits), cut(limits);
   for (const StarImage& image : all_images(scene.images(), SceneStars(stars))) {
@@ -211,6 +214,62 @@ TEST(StarPhotometry, SoAreTheirBlobs) {
   EXPECT_LT(kept[0], 0.995);
   EXPECT_GT(kept[0], 0.8);
   EXPECT_GT(kept[1], 0.9999);
+}
+
+// The illuminance over V of Planck's law at a temperature, in steps of 1 nm, with the V of Bessell
+// (1990) as straight lines between its points.  It shares no code with the renderer.
+double light_in_v(double temperature) {
+  constexpr double kV[]{0,     0.03,  0.163, 0.458, 0.78,  0.967, 1,     0.973,
+                        0.898, 0.792, 0.684, 0.574, 0.461, 0.359, 0.27,  0.197,
+                        0.135, 0.081, 0.045, 0.025, 0.017, 0.013, 0.009, 0};
+  double sum = 0;
+  for (int nm = 470; nm < 700; ++nm) {
+    const int k = (nm - 470) / 10;
+    const double v = kV[k] + (kV[k + 1] - kV[k]) * (nm - 470 - 10 * k) / 10;
+    sum += v / std::pow(nm, 5) / std::expm1(1.438776877e7 / (nm * temperature));
+  }
+  return sum;
+}
+
+// A star that moves brings g^4 of its flux, most of it perhaps beyond V.
+TEST(StarPhotometry, AShiftedStarIsSeenAsTheVOfItsNewTemperature) {
+  for (const double temperature : {2500.0, 6000.0, 20000.0})
+    for (const double g : {0.4, 0.8, 1.0, 1.5, 4.0}) {
+      SCOPED_TRACE(std::to_string(temperature) + " K, g = " + std::to_string(g));
+      const double v = seen_magnitude(Effects{}, 3, temperature, g * g * g * g, g);
+      // The sum over V of the shifted Planck law has the factor g^4/g^4 against that of gT.
+      const double ratio = light_in_v(g * temperature) / light_in_v(temperature);
+      EXPECT_NEAR(v, 3 - 2.5 * std::log10(ratio), 0.01);
+      Effects grey;
+      grey.doppler_colour = false;
+      EXPECT_NEAR(seen_magnitude(grey, 3, temperature, g * g * g * g, g), 3 - 10 * std::log10(g),
+                  1e-9);
+    }
+  EXPECT_EQ(seen_magnitude(Effects{}, 3, 6000, 0, 0), HUGE_VAL);
+}
+
+// The drawn image has the light of a star at rest that has the V and the temperature of the image.
+TEST(StarPhotometry, TheSeenVIsThatOfThePixels) {
+  for (const double speed : {-0.75, 0.75, -3.0}) {
+    const StarScene moving({Region::kI, Tetrad::kRain, kFlatSpace, V3d(speed, 0, 0)},
+                           Domemaster{256});
+    const StarScene resting({Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 0, 0)}, Domemaster{256});
+    const Star star{moving.sky(V3d(-1, 0.3, 0.1)), 2, 5000};
+    const auto image =
+        StarSight(moving.state, moving.show.effects).image(SkyRegion::kI, star.direction, 0);
+    const double g = image.frequency_ratio;
+    EXPECT_GT(std::abs(std::log(g)), 0.3);
+    const double v = seen_magnitude(moving.show.effects, 2, 5000, image.brightening, g);
+    const auto light_of = [](const StarScene& scene, const Star& at) {
+      std::vector<StarImage> images;
+      scene.images().append(SceneStars({at})[0], images);
+      return total_light(images);
+    };
+    const double seen = light_of(moving, star);
+    const double known =
+        light_of(resting, {star.direction, static_cast<float>(v), static_cast<float>(5000 * g)});
+    EXPECT_NEAR(seen / known, 1, 1e-3) << speed;
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "pipeline/light/hole_optics.h"
 #include "pipeline/render/scene/exposure.h"
 #include "pipeline/render/stars/star_image_finder.h"
 #include "tests/pipeline/render/scenes.h"
@@ -28,7 +29,7 @@ class StarScene {
   double exposure() const { return exposure_scale(state.settings); }
   PointSpread point_spread() const { return {show.point_spread, state.projection, exposure()}; }
   StarImageFinder images(bool far = false) const {
-    scenes_.push_back(std::make_unique<FrameScene>(scene_with(show, state, optics, {}, motion)));
+    scenes_.push_back(std::make_unique<FrameScene>(scene_with(show, state, {}, motion)));
     return {*scenes_.back(), region(far)};
   }
   // The direction on the sky that has these components along R, Theta, Phi.

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "pipeline/render/stars/einstein_rings.h"
+#include "pipeline/light/einstein_rings.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 #include "trajectories/static_observer.h"
 
@@ -28,10 +28,14 @@ const std::vector<TrailCase> kCases{
 
 SkyTable table_at(double r) { return *make_hole_optics(r, Tetrad::kRain, {}).home_sky; }
 
+StarTrail::ImageOf image_at(const SkyTable& table, int order) {
+  return [&table, order](const V3d& source) { return image_of(&table, source, order, 0); };
+}
+
 // A trail in pieces that are at most so many radians apart.
 std::vector<SkyImage> trail_of(const SkyTable& table, const AxisPassage& passage, int order,
                                double spacing) {
-  const StarTrail trail(table, passage, order);
+  const StarTrail trail(image_at(table, order), passage);
   std::vector<SkyImage> pieces;
   for (std::size_t k = 0; k < trail.parts(); ++k)
     trail.split(
@@ -93,7 +97,7 @@ TEST(StarTrail, LiesWhereItsInstantsDo) {
     for (int order = 0; order < 3; ++order) {
       const SkyTable table = table_at(c.r);
       const AxisPassage passage(c.source.normalized(), c.way, kRadius);
-      const StarTrail trail(table, passage, order);
+      const StarTrail trail(image_at(table, order), passage);
       // The sources of the passage, as close as they are to one another here.
       std::vector<V3d> way;
       for (int k = 0; k <= 4000; ++k) {
@@ -125,7 +129,8 @@ TEST(StarTrail, IsSeenAtOnceAsPieceByPiece) {
       for (int order = 0; order < 3; ++order) {
         const Aberration boost(celerity);
         const SkyTable table = table_at(c.r);
-        const StarTrail trail(table, AxisPassage(c.source.normalized(), c.way, kRadius, 4), order);
+        const StarTrail trail(image_at(table, order),
+                              AxisPassage(c.source.normalized(), c.way, kRadius, 4));
         for (std::size_t k = 0; k < trail.parts(); ++k) {
           constexpr int kPieces = 5, kFirst = 2, kAt = 7;
           std::vector<SkyImage> pieces;

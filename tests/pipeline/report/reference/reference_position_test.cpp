@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "pipeline/optics/ray_request.h"
-#include "pipeline/optics/traced_ray.h"
+#include "pipeline/light/ray_request.h"
+#include "pipeline/light/traced_ray.h"
 #include "tests/source_tree.h"
 
 namespace domefall {

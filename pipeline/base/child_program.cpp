@@ -1,0 +1,208 @@
+#include "pipeline/base/child_program.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "pipeline/base/errors.h"
+#include "pipeline/base/new_file.h"
+
+namespace domefall {
+namespace {
+
+constexpr int kNotStarted = 127;
+
+struct Ends {
+  int from = -1, to = -1;
+
+  explicit Ends(const std::string& program) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw TemporaryError(program + ": no pipe can be made: " + std::strerror(errno));
+    from = ends[0], to = ends[1];
+  }
+};
+
+struct Drained {
+  std::string text;
+  std::uint64_t bytes = 0;  // of all that came
+};
+
+// Reads a pipe to its end.  Keeps about `most` of its first bytes, or from `most` to 2 `most` of
+// its last.
+Drained drain(int from, std::size_t most, bool last) {
+  const Descriptor closed(from);
+  Drained drained;
+  std::string& text = drained.text;
+  std::array<char, 1 << 16> piece;
+  for (ssize_t got = 0; (got = read(from, piece.data(), piece.size())) != 0;) {
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) break;
+    drained.bytes += static_cast<std::uint64_t>(got);
+    if (last || text.size() < most) text.append(piece.data(), static_cast<std::size_t>(got));
+    if (last && text.size() > 2 * most) text.erase(0, text.size() - most);
+  }
+  return drained;
+}
+
+std::string last_lines(std::string text) {
+  constexpr std::size_t kLines = 6;
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::size_t begin = text.size();
+  for (std::size_t lines = 0; lines < kLines && begin != std::string::npos && begin > 0; ++lines)
+    begin = text.rfind('\n', begin - 1);
+  return begin == std::string::npos || begin == 0 ? text : text.substr(begin + 1);
+}
+
+struct Streams {
+  int in, out, error, failed;
+};
+
+// Becomes the program, which is killed with the parent.  posix_spawn() has no way to ask for that.
+// Between fork() and exec() nothing may be called that could take a lock.
+[[noreturn]] void become(char* const* arguments, const Streams& streams,
+                         const std::vector<int>& kept, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(kNotStarted);  // the parent died before prctl() was called
+  setpgid(0, 0);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE}) std::signal(number, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  dup2(streams.in, STDIN_FILENO);
+  dup2(streams.out, STDOUT_FILENO);
+  dup2(streams.error, STDERR_FILENO);
+  for (const int number : kept) fcntl(number, F_SETFD, 0);
+  execvp(arguments[0], arguments);
+  const int error = errno;
+  (void)!::write(streams.failed, &error, sizeof error);
+  _exit(kNotStarted);
+}
+
+}  // namespace
+
+bool ChildOutcome::good() const { return WIFEXITED(status) && WEXITSTATUS(status) == 0; }
+
+bool ChildOutcome::killed() const { return WIFSIGNALED(status); }
+
+std::string ChildOutcome::text() const {
+  const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  const std::string how =
+      number != 0 ? fmt::format("was ended by signal {} ({})", number, strsignal(number))  // NOLINT
+                  : fmt::format("ended with code {}", WEXITSTATUS(status));
+  return said.empty() ? how : how + ":\n" + said;
+}
+
+ChildProgram::ChildProgram(std::vector<std::string> arguments, const std::vector<int>& kept,
+                           const std::string& package) {
+  const std::string& program = arguments.front();
+  std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  const Ends in(program), out(program), error(program), failed(program);
+  // No signal reaches the child while it still has the handlers of this process.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const pid_t parent = getpid();
+  process_ = fork();
+  if (process_ == 0) become(pointers.data(), {in.from, out.to, error.to, failed.to}, kept, parent);
+  int why = process_ < 0 ? errno : 0;
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  for (const int end : {in.from, out.to, error.to, failed.to}) close(end);
+  if (process_ > 0 && read(failed.from, &why, sizeof why) > 0) waitpid(process_, nullptr, 0);
+  close(failed.from);
+  if (why != 0) {
+    process_ = -1;
+    for (const int end : {in.to, out.from, error.from}) close(end);
+    if (why == ENOENT)
+      throw TemporaryError(fmt::format(
+          "the program {} is not on the PATH; Debian's package {} has it", program, package));
+    throw TemporaryError(program + ": cannot be started: " + std::strerror(why));
+  }
+  input_ = in.to;
+  constexpr int kPipeBytes = 1 << 20;  // what every user may have
+  fcntl(input_, F_SETPIPE_SZ, kPipeBytes);
+  constexpr std::size_t kMostSaid = 1 << 14;
+  said_ = std::async(std::launch::async,
+                     [from = error.from] { return drain(from, kMostSaid, true).text; });
+  read_ = std::async(std::launch::async, [this, from = out.from] {
+    Drained drained = drain(from, kMostOutput, false);
+    output_ = std::move(drained.text);
+    output_bytes_ = drained.bytes;
+  });
+}
+
+ChildProgram::~ChildProgram() {
+  if (input_ >= 0) close(input_);
+  if (process_ <= 0) return;
+  kill(process_, SIGKILL);
+  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+bool ChildProgram::write(const void* bytes, std::size_t count) const {
+  const char* at = static_cast<const char*>(bytes);
+  while (count > 0) {
+    const ssize_t written = ::write(input_, at, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    at += written;
+    count -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+ChildOutcome ChildProgram::wait() {
+  close(input_);
+  input_ = -1;
+  ChildOutcome outcome;
+  while (waitpid(process_, &outcome.status, 0) < 0)
+    if (errno != EINTR) throw TemporaryError("a program that was started has been lost");
+  process_ = -1;
+  read_.get();
+  outcome.said = last_lines(said_.get());
+  return outcome;
+}
+
+MemoryFile::MemoryFile(const std::string& purpose)
+    : purpose_(purpose + " in memory"), descriptor_(memfd_create("domefall", MFD_CLOEXEC)) {
+  if (number() < 0) throw_file_error(purpose_, errno);
+}
+
+void MemoryFile::append(std::string_view bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t written = write(number(), bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) throw_file_error(purpose_, errno);
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void MemoryFile::rewind() const {
+  if (lseek(number(), 0, SEEK_SET) != 0) throw_file_error(purpose_, errno);
+}
+
+std::string MemoryFile::contents() const {
+  std::string all;
+  std::array<char, 1 << 16> piece{};
+  while (true) {
+    const ssize_t count =
+        pread(number(), piece.data(), piece.size(), static_cast<off_t>(all.size()));
+    if (count < 0 && errno != EINTR) throw_file_error(purpose_, errno);
+    if (count == 0) return all;
+    if (count > 0) all.append(piece.data(), static_cast<std::size_t>(count));
+  }
+}
+
+std::string MemoryFile::path() const { return fmt::format("/proc/self/fd/{}", number()); }
+
+}  // namespace domefall

@@ -1,0 +1,146 @@
+#include "pipeline/light/plane_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/vector_math.h"
+#include "pipeline/spacetime/schwarzschild.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// A PlaneSight holds what the loop over rays needs of the observer and the plane.  `straight` is the
+// energy E of straight light, and 0 where light is bent.
+struct PlaneSight {
+  double r, s, one_minus_s, label_sign, energy_sign, straight;
+  double normal_up, normal_across, cos_azimuth, sin_azimuth;
+};
+
+[[gnu::always_inline]] inline void locate_on_plane_loop(const PlaneSight& sight,
+                                                        const DirectionBatch& n,
+                                                        const double* width, int count,
+                                                        PlaneCrossings& crossings) {
+  const PlaneSight o = sight;
+  for (int k = 0; k < count; ++k) {
+    const double x = n.x[k], y = n.y[k], z = n.z[k];
+    const double across2 = y * y + z * z, across = std::sqrt(across2);
+    const double sine = across > 1e-12 ? across : 1e-12;
+    // The angle alpha counts from the hole in the rain frame and from the opposite direction in the
+    // outgoing one.  So cos alpha is -x or x, and p has the opposite sign in the outgoing frame.
+    // With half2 = sin^2(alpha/2), the energy 1 - s cos alpha becomes
+    // (1 - s)(1 - half2) + (1 + s) half2, which does not cancel next to the horizon.
+    const double cosine = -o.label_sign * x;
+    const double half2 = cosine > 0 ? across2 / (2 * (1 + cosine)) : (1 - cosine) / 2;
+    const double energy = o.one_minus_s * (1 - half2) + (1 + o.s) * half2;
+    const double free = o.energy_sign * energy;
+    const double kept = free > 0 ? free : 0;
+    const double e = o.straight > 0 ? o.straight : kept;
+    const double pixel = width[k];
+    const double labelled = (cosine - o.s) / (o.r * sine);
+    // These are the cosine and the sine of the azimuth about R from the normal's part across R to
+    // the tangent in which the ray sweeps psi.
+    const double along = (y * o.cos_azimuth + z * o.sin_azimuth) / sine,
+                 beside = (z * o.cos_azimuth - y * o.sin_azimuth) / sine;
+    const double side = o.normal_up > 0 ? -1 : 1;
+    const double up = o.normal_up > 0 ? o.normal_up : -o.normal_up;
+    const double toward = side * o.normal_across * along, aside = o.normal_across * beside;
+    crossings.energy[k] = e;
+    crossings.label[k] = o.label_sign * labelled;
+    // The derivative of p = (cos alpha - s)/(r sin alpha) is dp/dalpha = -E/(r sin^2 alpha).  For
+    // straight light s = 0, and 1 stands for E.
+    const double rate = o.straight > 0 ? 1 : energy > 0 ? energy : -energy;
+    crossings.label_per[k] = rate / (o.r * sine * sine) * pixel;
+    // After psi the ray is at cos(psi) r^ + sin(psi) e^, which lies in the plane of the normal n
+    // where tan psi = -(n.r^)/(n.e^).
+    const double turn = arc_tangent2(up, toward);
+    crossings.turn[k] = turn > 0 ? turn : 3.14159265358979323846;
+    crossings.azimuth_cosine[k] = side * along;
+    crossings.azimuth_sine[k] = side * beside;
+    crossings.azimuth_per[k] = pixel / sine;
+    // By tan psi_0 = up/toward, psi_0 changes by up/(up^2 + toward^2) for each unit of `toward`.
+    // The smallest `toward` within the pixel makes this an upper bound.
+    const double wide = pixel / sine, steep = (aside > 0 ? aside : -aside) * wide;
+    const double far = (toward > 0 ? toward : -toward) - steep / 2, off = far > 0 ? far : 0;
+    const double square = up * up + off * off;
+    crossings.turn_per[k] = up * steep / (square > 1e-30 ? square : 1e-30);
+  }
+}
+Dispatched<locate_on_plane_loop> locate_on_plane;
+
+}  // namespace
+
+PlaneRays::PlaneRays(const Radius& at, Tetrad tetrad, double null_time, bool straight,
+                     const PlaneRings& rings)
+    : images_(at, is_outgoing(tetrad), straight, rings.inner, rings.outer, rings.with_times),
+      straight_(straight),
+      outgoing_(is_outgoing(tetrad)),
+      r_(at.r),
+      s_(Schwarzschild::free_fall_speed(r_)),
+      one_minus_s_(Schwarzschild::below_light_speed(at)),
+      // Straight light is labelled in the frame of the observer at rest, where alpha counts from the
+      // hole and p = cos alpha/(r sin alpha).
+      label_sign_(outgoing_ && !straight ? -1 : 1),
+      energy_sign_(is_mirrored(tetrad) ? -1 : 1),
+      normal_up_(rings.normal.x),
+      normal_across_(std::sqrt(rings.normal.y * rings.normal.y + rings.normal.z * rings.normal.z)),
+      normal_cosine_(normal_across_ > 0 ? rings.normal.y / normal_across_ : 1),
+      normal_sine_(normal_across_ > 0 ? rings.normal.z / normal_across_ : 0),
+      side_(normal_up_ > 0 ? -1 : 1) {
+  const double tortoise = Schwarzschild::tortoise(at);
+  // The t of a mirrored observer counts backwards.  With t -> -t, v = t + r* becomes 2 r* - v, and
+  // u = t - r* becomes -2 r* - u.
+  null_time_ = is_mirrored(tetrad) ? (outgoing_ ? -2 : 2) * tortoise - null_time : null_time;
+  observer_v_ = outgoing_ ? null_time_ + 2 * tortoise : null_time_;
+}
+
+void PlaneRays::locate(const DirectionBatch& n, const double* width, int count,
+                       PlaneCrossings& crossings) const {
+  const PlaneSight sight{
+      r_,          straight_ ? 0 : s_, straight_ ? 1 : one_minus_s_,
+      label_sign_, energy_sign_,       straight_ ? std::sqrt((r_ - 2) / r_) : 0.0,
+      normal_up_,  normal_across_,     normal_cosine_,
+      normal_sine_};
+  locate_on_plane(sight, n, width, count, crossings);
+}
+
+// psi_0 = atan2(up, across cos(azimuth)) grows as |azimuth| grows from 0 to pi.
+double PlaneRays::turn_at(double azimuth) const {
+  const double turn = arc_tangent2(up(), normal_across_ * sin_cos(azimuth).cosine);
+  return turn > 0 ? turn : pi;
+}
+
+// By turn_at, cos(azimuth) = up cos psi_0/(across sin psi_0).
+double PlaneRays::azimuth_at(double turn) const {
+  const SineCosine t = sin_cos(turn);
+  const double x = up() * t.cosine, length = normal_across_ * t.sine;
+  return arc_tangent2(std::sqrt(std::max(0.0, (length - x) * (length + x))), x);
+}
+
+// The orbit equation w'^2 = 1/b^2 - w^2 + 2 w^3, taken at the observer, where w' = p, gives
+// 1/b^2 = p^2 + w_0^2 - 2 w_0^3.  Straight light has no cubic term.
+double PlaneRays::momentum(double label, double energy) const {
+  const double w0 = 1 / r_;
+  const double inverse_b2 = label * label + w0 * w0 * (straight_ ? 1 : 1 - 2 * w0);
+  return energy / std::sqrt(std::max(inverse_b2, 1e-300));
+}
+
+// The tangent e^ lies at this azimuth about R from the normal's part across R, as in
+// locate_on_plane_loop.  The place is cos(turn) r^ + sin(turn) e^.
+V3d PlaneRays::place(double turn, double azimuth_cosine, double azimuth_sine) const {
+  const SineCosine turned = sin_cos(turn);
+  const double along = side_ * azimuth_cosine, beside = side_ * azimuth_sine;
+  return {turned.cosine, turned.sine * (along * normal_cosine_ - beside * normal_sine_),
+          turned.sine * (along * normal_sine_ + beside * normal_cosine_)};
+}
+
+double PlaneRays::time_at(double r, double delay) const {
+  const double tortoise =
+      Schwarzschild::finite_tortoise(r, [](double x) { return logarithm(x); });  // no pattern there
+  return null_time_ + delay + (outgoing_ ? tortoise : -tortoise);
+}
+
+}  // namespace domefall

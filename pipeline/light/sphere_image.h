@@ -1,0 +1,30 @@
+// The image of a glowing sphere near the hole is drawn in pieces.
+//
+// Whoever looks at a sphere sees a disc of its radius, at right angles to the light, however the
+// sphere moves (Penrose 1959, Terrell 1959).  A plane through the axis of hole and observer cuts a
+// chord out of this disc, and the image of the chord lies in the same plane, at the angles from the
+// hole that follow from PlaceImage to first order.  So the image is an ellipse, an arc where the
+// sphere is next to the axis, and a ring where the axis goes through it.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "pipeline/light/body_image.h"
+#include "pipeline/light/hole_optics.h"
+
+namespace domefall {
+
+// Returns the longer of the sizes of the image along and across its plane, in radians.
+double size_of_sphere(const BodyImage& image, double radius);
+
+// Returns the image of one order of a sphere of this radius (M, > 0).  Each piece has its solid
+// angle, in the tetrad, in place of the amplification, and its own frequency ratio.  There are at
+// most 4096 chords, and 4096 pieces of one.  Otherwise pieces are no longer than spacing(direction)
+// in the middle of the image and of the chord.  The two orders that meet in a ring have half of it
+// each.  To first order, angles err by a part of about the radius over the distance to the observer
+// or to the hole, whichever is nearer.
+std::vector<SkyImage> image_of_sphere(const BodyImage& image, double radius,
+                                      const std::function<double(const V3d&)>& spacing);
+
+}  // namespace domefall

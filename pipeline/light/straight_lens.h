@@ -1,0 +1,33 @@
+// Where light goes straight, the sky stands as it is: in flat space, and near a hole in the frame of
+// the observer at rest, if a show leaves lensing out.
+#pragma once
+
+#include "pipeline/light/lens.h"
+
+namespace domefall {
+
+class StraightLens : public Lens {
+ public:
+  // `frame` is gamma v of the observer at rest against the tetrad, and `shift` the frequency ratio
+  // of all light in that observer's frame.
+  StraightLens(double r, Tetrad tetrad, const M33d& sky_from_tetrad, const V3d& frame, double shift)
+      : r_(r), tetrad_(tetrad), sky_from_tetrad_(sky_from_tetrad), frame_(frame), shift_(shift) {}
+
+  V3d frame() const override { return frame_; }
+  void rays(const DirectionBatch& directions, int count, ViewRayBatch& rays) const override;
+  ViewRay ray(const V3d& direction) const override;
+  std::unique_ptr<const SkyPoints> points(SkyRegion,
+                                          const std::optional<PointTolerance>&) const override;
+
+  V3d primary_image(const V3d& source) const override { return source; }
+  std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override;
+
+ private:
+  double r_;
+  Tetrad tetrad_;
+  M33d sky_from_tetrad_;
+  V3d frame_;
+  double shift_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,298 @@
+#include "pipeline/program/cli/check_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "pipeline/base/frame_rate.h"
+#include "pipeline/base/talk.h"
+#include "pipeline/base/utf8.h"
+#include "pipeline/grade/grader.h"
+#include "pipeline/render/scene/exposure.h"
+#include "pipeline/show/file/show_time.h"
+#include "pipeline/show/observer_track.h"
+
+namespace domefall {
+namespace {
+
+class Page {
+ public:
+  explicit Page(const CheckReport& report) : r_(report), show_(report.show) {}
+
+  std::string text() {
+    head();
+    fades(show_.fades, "fading");
+    markers();
+    skies();
+    effects();
+    for (std::size_t k = 0; k < r_.survey.segments.size(); ++k) segment(k);
+    whole();
+    light();
+    time();
+    disk();
+    warnings();
+    return text_;
+  }
+
+ private:
+  void line(const std::string& name, const std::string& text) {
+    text_ += fmt::format("{:<12} {}\n", name, printable(text));
+  }
+
+  void head() {
+    line("title", show_.title);
+    const FrameRate rate = frame_rate_of(show_.frames_per_second);
+    line("frames", fmt::format("{} at {} a second ({:.6g} s), {} of {} x {}", frame_count(show_),
+                               rate_text(rate), segment_times(show_).back(),
+                               projection_name(show_.projection), columns(show_.projection),
+                               rows(show_.projection)));
+    if (show_.written_rate)
+      line("rate", fmt::format("{:g} is taken for {}, the rate of video that it stands for",
+                               *show_.written_rate, text_of(rate)));
+    if (r_.display.empty())
+      line("graded for", "nothing: scene-linear frames alone");
+    else
+      line("graded for", r_.display + ", " + r_.view);
+    if (const std::string note = ocio_note(show_.grade); !note.empty() && show_.output.graded)
+      line("", note);
+    if (const auto mass = show_.spacetime.solar_masses())
+      line("black hole", fmt::format("{:.6g} solar masses: 1 M lasts {}", *mass,
+                                     duration_text(show_.spacetime.seconds_per_m())));
+    else
+      line("black hole", "none: flat space");
+  }
+
+  void skies() {
+    for (const auto& [sky, black] : r_.skies) {
+      std::string text;
+      if (!sky.map.empty()) add(text, sky.map);
+      if (sky.map_fainter_than)
+        text += fmt::format(", the light of stars fainter than V = {:g}", *sky.map_fainter_than);
+      if (!sky.catalogue.empty())
+        add(text, fmt::format("{}, {} to V = {:.3g}", sky.catalogue, counted(sky.stars, "star"),
+                              sky.faintest));
+      if (text.empty()) continue;
+      const bool is_first = sky.region == SkyRegion::kI;
+      line(is_first ? "sky" : fmt::format("region {}", name_of(sky.region)),
+           text + segments_text(sky));
+      if (!sky.taken.empty()) line("", sky.map + " is taken as: " + sky.taken);
+    }
+  }
+
+  // Says what the frames leave out of nature, or add to it.
+  void effects() {
+    const Effects& e = show_.effects;
+    if (e == Effects{}) return;
+    std::string text;
+    if (!e.aberration) text += "no aberration; ";
+    if (!e.doppler_colour) text += "no Doppler colours; ";
+    if (!e.intensity) text += "intensities at rest; ";
+    if (!e.lensing) text += "no lensing; ";
+    constexpr const char* kAmplified[] = {"nothing is", "stars are", "everything is"};
+    line("effects", text + kAmplified[static_cast<int>(e.amplification)] + " amplified");
+  }
+
+  static std::string regions_text(const std::vector<Region>& regions) {
+    constexpr std::size_t kMost = 12;
+    std::vector<std::string_view> names;
+    for (std::size_t k = 0; k < regions.size() && k < kMost; ++k)
+      names.emplace_back(region_name(regions[k]));
+    if (regions.size() > kMost) names.emplace_back("...");
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
+  std::string proper_time(double span) const {
+    if (show_.spacetime.is_flat()) return duration_text(span);
+    return fmt::format("{:.6g} M ({})", span,
+                       duration_text(span * show_.spacetime.seconds_per_m()));
+  }
+
+  std::string rate(const SegmentSurvey& s) const {
+    const char* unit = show_.spacetime.is_flat() ? "s" : "M";
+    const double mean = s.proper_time / (s.end_s - s.begin_s);
+    const bool steady = std::abs(s.rate_end - s.rate_begin) <= 1e-3 * std::abs(mean) &&
+                        std::abs(s.rate_end - mean) <= 1e-3 * std::abs(mean);
+    return steady ? fmt::format("{:.4g} {} a second", mean, unit)
+                  : fmt::format("{:.4g} {} a second ({:.4g} at first, {:.4g} at last)", mean, unit,
+                                s.rate_begin, s.rate_end);
+  }
+
+  void segment(std::size_t k) {
+    const SegmentSurvey& s = r_.survey.segments[k];
+    if (k > 0) joint(r_.joints[k - 1]);
+    line(fmt::format("segment {}", k + 1),
+         fmt::format("{}, {:.6g} s to {:.6g} s", s.type, s.begin_s, s.end_s));
+    std::string text = "flat space; ";
+    if (!show_.spacetime.is_flat()) {
+      text = fmt::format("r = {:.6g} M to {:.6g} M", s.r_begin, s.r_end);
+      if (s.closest.value < std::min(s.r_begin, s.r_end) * (1 - 1e-6))
+        text += fmt::format(", closest {:.6g} M at {:.5g} s", s.closest.value, s.closest.time_s);
+      line("", text + "; region " + regions_text(s.regions));
+      text.clear();
+    }
+    line("", text + proper_time(s.proper_time) + " of proper time, " + rate(s));
+    fades(segment_of(show_, static_cast<int>(k)).fades, "");
+  }
+
+  static void add(std::string& list, const std::string& text) {
+    list += (list.empty() ? "" : "; ") + text;
+  }
+
+  void joint(const SegmentJoint& j) {
+    std::string changes;
+    if (j.region_before != j.region_after)
+      add(changes, fmt::format("region {} to {}", region_name(j.region_before),
+                               region_name(j.region_after)));
+    if (j.place_jumps() && j.r_before != j.r_after)
+      add(changes, fmt::format("r jumps from {:.6g} M to {:.6g} M", j.r_before, j.r_after));
+    if (j.velocity_jumps())
+      add(changes, fmt::format("velocity jumps by {:.4g} of light's", *j.speed));
+    if (changes.empty()) changes = "the motion goes on";
+    const std::string name = j.dissolve_s > 0 ? fmt::format("dissolve of {:.4g} s", j.dissolve_s)
+                             : j.place_jumps() || j.velocity_jumps() ? "cut"
+                                                                     : "joint";
+    line("", fmt::format("-- {} at {:.6g} s: ", name, j.time_s) + changes);
+  }
+
+  static std::string place(const Extreme& e) {
+    return fmt::format("frame {} ({:.5g} s)", e.frame, e.time_s);
+  }
+
+  // Says what is taken for the black of each map.
+  void black() {
+    for (const auto& [sky, level] : r_.skies) {
+      if (!level) continue;
+      const char* by = sky.panorama->black ? "as the show says" : "the map's own darkest 1 %";
+      line(fmt::format("black of {}", name_of(sky.region)),
+           fmt::format("{:.3g} cd/m^2, {}, {:.3g} as a pixel value at 0 EV{}", *level, by,
+                       *level / kReferenceLuminance, segments_text(sky)));
+    }
+  }
+
+  void whole() {
+    text_ += "\nthe whole show\n";
+    if (!show_.spacetime.is_flat()) line("regions", regions_text(r_.survey.regions));
+    black();
+    if (const auto& e = r_.survey.closest)
+      line("closest", fmt::format("r = {:.6g} M, ", e->value) + place(*e));
+    if (const auto& e = r_.survey.fastest) {
+      const double gamma = std::hypot(1.0, e->value);
+      line("fastest",
+           fmt::format("{:.6g} of light's speed (Lorentz factor {:.5g}) against who is at rest "
+                       "there, ",
+                       e->value / gamma, gamma) +
+               place(*e));
+    }
+    if (const auto& e = r_.survey.bluest)
+      line("bluest sky", fmt::format("1 + z = {:.5g}, ", e->value) + place(*e));
+    if (const auto& e = r_.survey.reddest)
+      line("reddest sky", fmt::format("1 + z = {:.5g}, ", e->value) + place(*e));
+  }
+
+  void light_line(const char* name, const FrameLight& light) {
+    std::string text =
+        fmt::format("frame {} ({:.5g} s), segment {}: mean luminance {:.3g}, 99 % below {:.3g}",
+                    light.frame, light.time_s, light.segment + 1, light.mean, light.percentile99);
+    constexpr double kMuch = 0.03;
+    if (light.white > kMuch)
+      text += fmt::format("; {:.0f} % of the pixels at or beyond white", 100 * light.white);
+    line(name, text);
+  }
+
+  void light() {
+    light_line("brightest", r_.light.brightest);
+    if (r_.light.darkest.frame != r_.light.brightest.frame) light_line("darkest", r_.light.darkest);
+  }
+
+  void time() {
+    if (!r_.time)
+      return line("to render", is_worth_measuring(show_)
+                                   ? "not measured: no temporary file can be written"
+                                   : "not measured: to render the show is almost as quick");
+    line("to render",
+         fmt::format("about {} on this machine with {} thread{} at {} x {} ({:.3g} s a frame)",
+                     duration_text(r_.time->seconds), r_.time->threads,
+                     r_.time->threads == 1 ? "" : "s", columns(show_.projection),
+                     rows(show_.projection), r_.time->frame_s));
+  }
+
+  void disk() {
+    const DiskSize size = disk_size(r_);
+    std::string text = fmt::format("{} {}: {} frames of {}", size.measured ? "about" : "at most",
+                                   bytes_text(size.total()), size.frames,
+                                   bytes_text(size.linear > 0 ? size.linear : size.graded));
+    text += size.linear > 0 ? " scene-linear" : " graded";
+    if (size.linear > 0 && size.graded > 0)
+      text += fmt::format(" and {} graded", bytes_text(size.graded));
+    if (r_.room)
+      text += fmt::format("; {} free at {}", bytes_text(r_.room->free), r_.room->folder.string());
+    line("on disk", text);
+  }
+
+  void markers() {
+    for (const Marker& marker : show_.markers) {
+      const int frame = nearest_frame(show_, marker.at_s);
+      line("marker", fmt::format("{} at {} ({:.6g} s), frame {}, segment {}", marker.name,
+                                 clock_text(marker.at_s), marker.at_s, frame,
+                                 segment_at(show_, marker.at_s) + 1));
+    }
+  }
+
+  void fades(const Fades& fades, const char* name) {
+    std::string text;
+    if (fades.in_s > 0) add(text, fmt::format("fades in for {:.6g} s", fades.in_s));
+    if (fades.out_s > 0) add(text, fmt::format("fades out for {:.6g} s", fades.out_s));
+    if (!text.empty()) line(name, text);
+  }
+
+  void warnings() {
+    if (r_.warnings.empty()) {
+      text_ += "\nno warnings\n";
+      return;
+    }
+    constexpr std::size_t kMost = 20;
+    text_ += "\nwarnings\n";
+    for (std::size_t k = 0; k < r_.warnings.size() && k < kMost; ++k) {
+      const ShowWarning& w = r_.warnings[k];
+      if (w.segment == kWholeShow)
+        text_ += fmt::format("the whole show: {}\n", printable(w.text));
+      else
+        text_ += fmt::format("{:8.5g} s, frame {}, segment {}: {}\n", w.time_s, w.frame,
+                             w.segment + 1, printable(w.text));
+    }
+    if (r_.warnings.size() > kMost)
+      text_ += fmt::format("  and {} more\n", r_.warnings.size() - kMost);
+  }
+
+  const CheckReport& r_;
+  const Show& show_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  struct Unit {
+    double from, seconds;
+    const char* name;
+  };
+  constexpr double kMinute = 60, kHour = 3600, kDay = 86400, kYear = 31557600;
+  constexpr Unit kUnits[] = {{2 * kYear, kYear, "years"},
+                             {2 * kDay, kDay, "days"},
+                             {2 * kHour, kHour, "h"},
+                             {2 * kMinute, kMinute, "min"},
+                             {0.1, 1, "s"},
+                             {1e-4, 1e-3, "ms"},
+                             {0, 1e-6, "us"}};
+  for (const Unit& unit : kUnits)
+    if (std::abs(seconds) >= unit.from)
+      return fmt::format("{:.3g} {}", seconds / unit.seconds, unit.name);
+  return fmt::format("{:g} s", seconds);
+}
+
+std::string check_page(const CheckReport& report) { return Page(report).text(); }
+
+}  // namespace domefall

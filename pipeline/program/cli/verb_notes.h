@@ -1,0 +1,32 @@
+// The notes on a verb are what the manual says about it beyond its options.  They are written once.
+// --help closes with them, of which the manual pages are made.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace domefall {
+
+struct VerbNotes {
+  std::string_view verb;  // as it is typed: render, sky import; empty: the program itself
+  std::string_view
+      about;  // paragraphs with an empty line between them; lines of at most 78 letters
+  std::vector<std::pair<std::string_view, std::string_view>> examples;  // a command, what it does
+  std::string_view document;                                            // below docs, or empty
+};
+
+// Returns the notes in the order of the verbs.
+const std::vector<VerbNotes>& all_verb_notes();
+
+// A Meaning is a name and what it means, such as an exit code, a variable of the environment or a
+// folder.
+using Meaning = std::pair<std::string_view, std::string_view>;
+const std::vector<Meaning>& exit_code_meanings();
+const std::vector<Meaning>& environment_meanings();
+
+// Returns what --help says after the options.
+std::string help_footer(const VerbNotes& notes);
+
+}  // namespace domefall

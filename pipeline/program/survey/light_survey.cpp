@@ -1,0 +1,112 @@
+#include "pipeline/program/survey/light_survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "pipeline/render/reduced_frame.h"
+#include "pipeline/sources/colour/colour_space.h"
+
+namespace domefall {
+namespace {
+
+constexpr int kSurveyWidth = 48, kMostCostInstants = 60;
+// Three stops are an eighth of the light.
+constexpr double kFadeStops = 3;
+// From this part of white's code value on, the steps that remain to white cannot be seen.
+constexpr double kNearWhite = 0.99;
+
+// Returns the code value to which the grade takes the brightest grey that a half float can hold.
+double white_of(const Grader& grader) {
+  HalfFrame grey(1, 1);
+  std::fill(grey.pixels.begin(), grey.pixels.end(), Imath::half(65504.0f));
+  const GradedFrame graded = grader.grade(grey);
+  return *std::max_element(graded.pixels.begin(), graded.pixels.end());
+}
+
+// Returns the indices of the pixels inside the image of a projection.
+std::vector<std::size_t> inside_pixels(const Projection& p) {
+  std::vector<std::size_t> inside;
+  for (int row = 0; row < rows(p); ++row) {
+    const ColumnRange range = inside_columns(p, row);
+    for (int k = range.first; k <= range.last; ++k)
+      inside.push_back(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns(p)) +
+                       static_cast<std::size_t>(k));
+  }
+  return inside;
+}
+
+class LightMeter {
+ public:
+  explicit LightMeter(const Grader* grader) {
+    if (grader) grader_ = *grader;
+  }
+
+  // Measures a frame into `light`.  The grade's white is asked for anew, since the CDL of each
+  // frame changes it.
+  void measure(const HalfFrame& frame, const FrameState& state, FrameLight& light) {
+    const std::vector<std::size_t> inside = inside_pixels(state.projection);
+    std::vector<double> values;
+    std::size_t white = 0;
+    GradedFrame graded;
+    double brightest = 0;
+    if (grader_) {
+      grader_ = grader_->with(state.cdl);
+      graded = grader_->grade(frame);
+      brightest = white_of(*grader_);
+    }
+    for (const std::size_t k : inside) {
+      const Imath::half* rgb = &frame.pixels[3 * k];
+      values.push_back(luminance({rgb[0], rgb[1], rgb[2]}));
+      light.mean += values.back() / static_cast<double>(inside.size());
+      if (grader_) {
+        const unsigned short* code = &graded.pixels[3 * k];
+        white += std::max({code[0], code[1], code[2]}) >= kNearWhite * brightest;
+      } else {
+        // Without a grade a display would show everything above 1 as white.
+        white += std::max({rgb[0], rgb[1], rgb[2]}) > 1;
+      }
+    }
+    // Only the value at this rank is needed, so the values need not be sorted as a whole.
+    const auto rank = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 99 / 100);
+    std::nth_element(values.begin(), rank, values.end());
+    light.percentile99 = *rank;
+    light.white = static_cast<double>(white) / static_cast<double>(inside.size());
+  }
+
+ private:
+  std::optional<Grader> grader_;  // with the CDL of the frame that was measured last
+};
+
+}  // namespace
+
+LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader) {
+  const int count = frame_count(show);
+  const int seconds = static_cast<int>(std::ceil(count / show.frames_per_second));
+  const int samples = std::min(count, std::clamp(seconds + 1, 2, kMostCostInstants));
+  LightMeter meter(grader);
+  std::vector<FrameLight> lights;
+  for (int k = 0; k < samples; ++k) {
+    // The samples are spread evenly from the first frame to the last.
+    const int frame =
+        samples > 1 ? static_cast<int>(static_cast<long>(count - 1) * k / (samples - 1)) : 0;
+    const FrameState state = reduced(frame_state(show, frame), kSurveyWidth);
+    FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, state.fade};
+    meter.measure(renderer.render(state), state, light);
+    lights.push_back(light);
+  }
+  const auto darker = [](const FrameLight& a, const FrameLight& b) { return a.mean < b.mean; };
+  LightSurvey found;
+  found.frames = samples;
+  found.brightest = *std::max_element(lights.begin(), lights.end(), darker);
+  double highest = -HUGE_VAL;
+  // A fade counts like an exposure that is lower by its logarithm in stops.
+  const auto stops = [](const FrameLight& light) { return light.ev + std::log2(light.fade); };
+  for (const FrameLight& light : lights) highest = std::max(highest, stops(light));
+  std::erase_if(lights,
+                [&](const FrameLight& light) { return stops(light) < highest - kFadeStops; });
+  found.darkest = *std::min_element(lights.begin(), lights.end(), darker);
+  return found;
+}
+
+}  // namespace domefall

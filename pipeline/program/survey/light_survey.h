@@ -1,0 +1,38 @@
+// A light survey says how bright a show is, measured on small frames of it.
+#pragma once
+
+#include <optional>
+
+#include "pipeline/grade/grader.h"
+#include "pipeline/render/reduced_frame.h"
+
+namespace domefall {
+
+struct FrameLight {
+  int frame = 0;
+  double time_s = 0;
+  int segment = 0;
+  double ev = 0;
+  double fade = 1;  // the part of its light that a fade from or to black leaves
+  // These are luminances of the pixels inside the image (a dome's circle), in pixel values: their
+  // mean, and the value that 1 % of them exceed.
+  double mean = 0, percentile99 = 0;
+  // This part of the pixels, 0 to 1, has a channel within 1 % of the grade's white.  Without a
+  // grade it is the part of which a channel exceeds 1.
+  double white = 0;
+};
+
+struct LightSurvey {
+  FrameLight brightest;  // by its mean
+  // The darkest frame is sought among those whose exposure is within 3 stops of the highest, which
+  // leaves out fades.
+  FrameLight darkest;
+  int frames = 0;  // number of measured frames
+};
+
+// Measures one frame for each second of the show, but at least 2 and at most 60, at a width of 48
+// pixels.  `grader` is null for a show without a grade.  Means agree with those of large frames to
+// a few percent, since stars at a small size are as bright and only larger.
+LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader);
+
+}  // namespace domefall

@@ -1,0 +1,140 @@
+#include "pipeline/program/survey/show_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+#include "pipeline/render/overlay/bent_text.h"
+#include "pipeline/render/overlay/coverage.h"
+#include "pipeline/render/overlay/frame_titles.h"
+#include "pipeline/render/scene/body_sight.h"
+#include "pipeline/show/curve.h"
+#include "pipeline/show/frame_state.h"
+#include "pipeline/show/nearest_word.h"
+#include "trajectories/trajectory.h"
+
+namespace domefall {
+namespace {
+
+// A body that is a smaller part of its distance from the hole is met by an observer who seeks it.
+constexpr double kLarge = 0.02;
+
+constexpr double kLeastCapital = 2;  // pixels; no letter below is legible
+
+// Returns the first frame that shows any of the title's light.  Titles are drawn at the frames'
+// instants.  The search begins a frame early, because the nearest frame may stand before the title,
+// and its time may be rounded to either side.
+std::optional<int> first_frame_with(const Show& show, const Title& title) {
+  const auto time_of = [&](int frame) { return frame / show.frames_per_second; };
+  const int count = frame_count(show);
+  for (int frame = std::max(0, nearest_frame(show, title.begin_s) - 1);
+       frame < count && time_of(frame) < title.end_s; ++frame)
+    if (time_of(frame) >= title.begin_s &&
+        light_left(title.fades, title.begin_s, title.end_s, time_of(frame)) > 0)
+      return frame;
+  return std::nullopt;
+}
+
+// Says whether any letter has an outline.
+bool has_ink(const LetteredText& letters) {
+  return std::ranges::any_of(letters.outlines,
+                             [](const TextOutline& outline) { return !outline.curves.empty(); });
+}
+
+// Adds the warnings of one title.  A title outside the picture is not warned of for the height of
+// its capitals too, which it does not have there.
+void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>& warnings) {
+  const std::optional<int> shown_at = first_frame_with(show, title);
+  // A title that is seen in no frame is judged by the frame nearest to its beginning.
+  const int frame = shown_at.value_or(nearest_frame(show, title.begin_s));
+  const FrameState state = frame_state(show, frame);
+  const LetteredText& letters = title_letters(title);
+  const TextSurface surface(state.camera_from_audience, title.azimuth, title.elevation,
+                            title.height);
+  const auto warn = [&](const std::string& what) {
+    warnings.push_back(
+        {title.begin_s, frame, state.segment, "the title '" + shown(title.text) + "' " + what});
+  };
+  if (!shown_at)
+    warn(
+        fmt::format("is seen in no frame, since none falls into its {:.3g} s; a longer duration_s "
+                    "would show it",
+                    title.end_s - title.begin_s));
+  if (!has_ink(letters)) {
+    warn("writes nothing, since none of its characters has any ink");
+    return;
+  }
+  if (!letters.font_found)
+    warn("asks for the font '" + shown(title.style.font) +
+         "', which this machine does not have, so that another one stands in for it");
+  if (letters.missing > 0)
+    warn(fmt::format("has {} letter{} that no font of this machine has, drawn as boxes",
+                     letters.missing, letters.missing == 1 ? "" : "s"));
+  const auto middle = pixel_of(state.projection, surface.direction({0, 0}));
+  if (!middle || !is_in_image(state.projection, *middle))
+    warn("has its middle outside the picture");
+  else if (const double least = kLeastCapital * pixel_angle(state.projection, *middle);
+           title.height < least)
+    warn(
+        fmt::format("has capitals lower than {} pixels at the show's size, which nobody can read; "
+                    "they have {} with a height_deg of {:.3g}",
+                    kLeastCapital, kLeastCapital, least * 180 / std::numbers::pi));
+  if (surface.angle_about_pole(letters.half_width) > std::numbers::pi)
+    warn(
+        "is longer than its circle of the dome, so that it runs into itself; a smaller height_deg "
+        "or more lines would fit");
+}
+
+}  // namespace
+
+NearBodies::NearBodies(const Show& show) : show_(show) {
+  for (const Body& body : show.bodies) {
+    const double by_light = BodySight::star_of(body).angular_radius * kBodyMagnitudeDistance;
+    const double radius = body.radius > 0 ? body.radius : by_light;
+    const auto [low, high] = reach(body.trajectory);
+    if (radius > kLarge * low) bodies_.push_back({&body, radius, low, high, {}, 0});
+  }
+}
+
+void NearBodies::add(const FrameState& state) {
+  if (bodies_.empty()) return;
+  const BodySight sight(state, show_.effects, show_.least_star_radius);
+  if (!sight.sees()) return;
+  const double r = state.observer.r;
+  // Who rides a point means to see no more of it than its light from around the hole.
+  const bool rides = segment_of(show_, state.segment).type == "body";
+  for (LargeBody& large : bodies_) {
+    // The lens makes a body appear at most about twice as near.
+    if (rides && large.body->radius == 0) continue;
+    if (std::max(large.low - r, r - large.high) > 2 * large.radius) continue;
+    if (!sight.is_too_near(*large.body)) continue;
+    if (!large.first) large.first = {state.show_time_s, state.frame, state.segment, {}};
+    large.last_frame = state.frame;
+  }
+}
+
+std::vector<ShowWarning> NearBodies::warnings() const {
+  std::vector<ShowWarning> found;
+  for (const LargeBody& large : bodies_) {
+    if (!large.first) continue;
+    ShowWarning warning = *large.first;
+    warning.text = fmt::format(
+        "bodies.{} is not drawn, to frame {}: the observer is within its radius of {:.3g} M, "
+        "or next to it",
+        large.body->name, large.last_frame, large.radius);
+    found.push_back(warning);
+  }
+  return found;
+}
+
+std::vector<ShowWarning> title_warnings(const Show& show) {
+  std::vector<ShowWarning> warnings;
+  for (const Title& title : show.titles) add_warnings(show, title, warnings);
+  for (const Segment& segment : show.timeline)
+    for (const Title& title : segment.titles) add_warnings(show, title, warnings);
+  return warnings;
+}
+
+}  // namespace domefall

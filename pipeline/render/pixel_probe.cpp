@@ -1,0 +1,177 @@
+#include "pipeline/render/pixel_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "pipeline/render/disc/disc_pass.h"
+#include "pipeline/render/overlay/bent_text.h"
+#include "pipeline/render/overlay/frame_titles.h"
+#include "pipeline/render/scene/body_sight.h"
+#include "pipeline/render/scene/seen_magnitude.h"
+#include "pipeline/render/scene/star_light.h"
+#include "pipeline/render/scene/star_sight.h"
+#include "pipeline/sources/stars/star_catalogue.h"
+#include "trajectories/equatorial.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kInDegrees = 180 / std::numbers::pi;
+
+std::vector<std::string> names_of_star(const StarCatalogue& catalogue, const Star& star) {
+  std::vector<std::string> names;
+  for (const NamedStar& name : catalogue.names)
+    if (name.direction.v == star.direction.v) names.push_back(name.name);
+  return names;
+}
+
+// The plan of a frame of which no sky is drawn.
+FramePlan plan_without_skies(const Show& show, const FrameState& state) {
+  FramePlan plan = plan_frame(show, state);
+  plan.sky = {};
+  return plan;
+}
+
+}  // namespace
+
+// The disc of the frame, in a scene that has nothing else.
+struct PixelProbe::Scene {
+  Scene(const Show& show, const FrameState& state)
+      : plan(plan_without_skies(show, state)),
+        light(plan.disc ? std::optional<DiscLight>(*show.disc) : std::nullopt),
+        scene(show, state, plan,
+              lens_of(state.observer, WantedSkies{{true, true, true}}, show.effects), {}, {},
+              light ? &*light : nullptr) {
+    if (light) disc.emplace(scene);
+  }
+
+  double left_before(const CameraDirection& n, double psi, double width) const {
+    return disc ? disc->left_before(n, psi, width) : 1;
+  }
+
+  FramePlan plan;
+  std::optional<DiscLight> light;
+  FrameScene scene;
+  std::optional<DiscPass> disc;
+};
+
+PixelProbe::PixelProbe(const Show& show, const FrameState& state, PixelPosition pixel)
+    : show_(show),
+      pixel_(pixel),
+      towards_(direction_at(state.projection, pixel)),
+      width_(pixel_angle(state.projection, pixel)),
+      scene_(std::make_unique<const Scene>(show, state)),
+      state_(scene_->scene.state) {}
+
+PixelProbe::~PixelProbe() = default;
+
+ViewRay PixelProbe::ray() const { return scene_->scene.tracer.trace(towards_); }
+
+double PixelProbe::left_of_sky() const { return scene_->left_before(towards_, HUGE_VAL, width_); }
+
+bool PixelProbe::reaches(const CameraDirection& image) const {
+  constexpr double kSigmas = 3.5;  // how far the smallest blob reaches
+  return (image.v - towards_.v).length() <= kSigmas * scene_->scene.point_spread.least();
+}
+
+std::vector<DiscAtPixel> PixelProbe::disc() const {
+  std::vector<DiscAtPixel> found;
+  if (!scene_->disc) return found;
+  for (const DiscPass::Place& place : scene_->disc->places(towards_, width_))
+    found.push_back({place.order, place.r, place.azimuth * kInDegrees, place.frequency_ratio,
+                     scene_->light->temperature(place.r), place.covered});
+  return found;
+}
+
+std::vector<StarAtPixel> PixelProbe::stars() const {
+  const StarSight sight(state_, show_.effects);
+  std::vector<StarAtPixel> found;
+  for (const SkyRegion sky : kExteriorSkies) {
+    const auto& field = show_.sky[sky].stars;
+    if (!field || !sight.sees(sky)) continue;
+    const FrameSettings::Sky& settings = state_.settings.sky[sky];
+    const double gain = settings.star_gain / default_star_gain(show_.point_spread);
+    const StarCatalogue catalogue =
+        read_star_catalogue(field->catalogue, settings.max_magnitude, show_.star_epoch);
+    for (const Star& star : catalogue.stars) {
+      const double v = star.v_magnitude, drawn = gain * part_within_limit(settings, v);
+      if (!(drawn > 0)) break;  // those that follow are fainter
+      int faint = 0;            // images in succession
+      for (int order = 0; order < sight.orders(); ++order) {
+        const StarSight::Image image = sight.image(sky, star.direction, order);
+        const auto seen_v = [&](double left) {
+          return seen_magnitude(show_.effects, v, star.temperature,
+                                left * drawn * image.brightening, image.frequency_ratio);
+        };
+        // The images of a pair of orders lie on opposite sides of the hole, where motion may dim
+        // one of them alone.  If both are too faint, so are all that follow.
+        faint = seen_v(1) <= kFaintestSeen ? 0 : faint + 1;
+        if (faint == 2) break;
+        if (faint > 0 || !reaches(image.direction)) continue;
+        const auto at = pixel_of(state_.projection, image.direction);
+        const double seen = seen_v(scene_->left_before(image.direction, HUGE_VAL, width_));
+        if (!at || !(seen <= kFaintestSeen)) continue;
+        const Equatorial place = equatorial(star.direction);
+        found.push_back({names_of_star(catalogue, star), sky, place.ra_deg, place.dec_deg, v,
+                         star.temperature, seen, order, *at});
+      }
+    }
+  }
+  std::ranges::stable_sort(found, {}, &StarAtPixel::seen_v);
+  return found;
+}
+
+std::vector<BodyAtPixel> PixelProbe::bodies() const {
+  const double sigma = scene_->scene.point_spread.least();
+  const BodySight sight(state_, show_.effects, show_.least_star_radius);
+  std::vector<BodyAtPixel> found;
+  if (!sight.sees()) return found;
+  for (const Body& body : show_.bodies) {
+    int faint = 0;
+    for (int order = sight.first_order(body);
+         order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {
+      const auto image = sight.image(body, order);
+      if (!image) break;
+      const BodySight::Seen seen = sight.seen(image->at);
+      const double left = scene_->left_before(seen.direction, image->traced.psi, width_);
+      const double magnitude = seen_magnitude(show_.effects, body.magnitude, body.temperature,
+                                              left * seen.brightening, seen.frequency_ratio);
+      faint = magnitude <= kFaintestSeen ? 0 : faint + 1;
+      const auto at = pixel_of(state_.projection, seen.direction);
+      if (faint > 0 || !at) continue;
+      const auto is_near = [&](const SkyImage& piece) {
+        return reaches(sight.seen(piece).direction);
+      };
+      if (is_near(image->at) || std::ranges::any_of(sight.pieces(body, *image, sigma), is_near))
+        found.push_back({body.name, image->traced.r, magnitude, seen.frequency_ratio, order, *at});
+    }
+  }
+  std::ranges::stable_sort(found, {}, &BodyAtPixel::seen_v);
+  return found;
+}
+
+std::vector<std::string> PixelProbe::titles() const {
+  std::vector<std::string> found;
+  if (!is_in_image(state_.projection, pixel_)) return found;
+  const int column = static_cast<int>(std::lround(pixel_.i)) - 1,
+            row = static_cast<int>(std::lround(pixel_.j)) - 1;
+  for (const SeenTitle& seen : seen_titles(show_, state_)) {
+    const Title& title = *seen.title;
+    Coverage coverage(columns(state_.projection), rows(state_.projection));
+    add_text(title_letters(title),
+             {state_.camera_from_audience, title.azimuth, title.elevation, title.height}, {0, 0},
+             state_.projection, coverage);
+    bool covers = false;
+    coverage.for_each_row([&](int y, int first, std::span<const double> parts) {
+      const int k = column - first;
+      covers = covers || (y == row && k >= 0 && k < static_cast<int>(parts.size()) &&
+                          parts[static_cast<std::size_t>(k)] > 0);
+    });
+    if (covers) found.push_back(title.text);
+  }
+  return found;
+}
+
+}  // namespace domefall

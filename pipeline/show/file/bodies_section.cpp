@@ -1,0 +1,225 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "pipeline/show/file/sections.h"
+#include "pipeline/show/file/trajectory_section.h"
+#include "pipeline/show/placement.h"
+#include "pipeline/sources/colour/blackbody.h"
+#include "trajectories/bound_orbit.h"
+#include "trajectories/trajectory.h"
+
+namespace domefall {
+namespace {
+
+// Reads the trajectory of a body and the proper time at which it begins.  Returns true if there was
+// no mistake.
+bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
+  const Item* way = s.one_of({"r", "trajectory"});
+  if (!way) {
+    s.require("trajectory",
+              ": how the body moves, or r, the radius of its circular orbit, or elements");
+    return false;
+  }
+  if (way == s.find("r")) {
+    const auto r = read_number(*way, s.range("r"));
+    if (r) body.trajectory = CircularOrbit{*r};
+    return r.has_value();
+  }
+  if (const auto type = peek(*way, "type"); type && !read_choice(*type, trajectories_of_bodies()))
+    return false;
+  // These keys choose the part of a trajectory that a segment shows, the rate of its clock or a
+  // region.  A body has neither part nor clock, and it is in region I or comes from there.
+  for (const std::string_view key :
+       {"to_r", "to_leg", "to_tau_m", "orbits", "rate_m_per_s", "time_lapse", "pace", "region"})
+    if (const auto given = peek(*way, key)) {
+      given->fail("is for the trajectories of segments");
+      return false;
+    }
+  // The default end of a trajectory follows from the duration of its segment.  A body has no
+  // segment, so that a moment stands in for the duration.
+  constexpr double kMoment = 1e-9;  // seconds
+  const Stage stage{to.spacetime, place_tetrad(to.hole_at, to.heading, 0), kMoment};
+  const auto read = read_trajectory(*way, stage, lookup);
+  if (!read) return false;
+  if (read->placement.mirrored || read->placement.turn != 0) {
+    way->fail("leaves the body's plane, which inclination_deg and node_deg give");
+    return false;
+  }
+  body.trajectory = read->trajectory;
+  body.backward = read->placement.backward;
+  body.start = read->timing.tau_begin;
+  return true;
+}
+
+// The elements are those of visual binaries, and of the stars about Sagittarius A* (Gillessen
+// et al. 2009, ApJ 692, 1075; 2017, ApJ 837, 30).  Angles are in radians.
+struct OrbitalElements {
+  double period;        // of the ellipse, M
+  double eccentricity;  // [0, 1)
+  double inclination;   // of its plane to that of the sky: 0 counter-clockwise, pi clockwise
+  double node;          // position angle, from north through east, where the body recedes
+  double pericentre;    // from the node, in the sense of the motion
+};
+
+// Returns p = a (1 - e^2), where a follows from Kepler's third law.  With M = 1 that law is a^3 =
+// (period/2 pi)^2, and 1 - e^2 is a product that keeps its digits next to e = 1.
+double semi_latus_rectum(const OrbitalElements& elements) {
+  const double e = elements.eccentricity;
+  return std::pow(elements.period / (2 * std::numbers::pi), 2.0 / 3) * (1 - e) * (1 + e);
+}
+
+// Lays the orbit into space as it is seen along `line_of_sight`.  Sets the trajectory, whose tau is
+// 0 at the pericentre, its plane, and the azimuth of the pericentre.  The semilatus rectum is
+// p = a (1 - e^2), where a is Kepler's, a^3 = (period/2 pi)^2.  From pericentre to pericentre the
+// orbit therefore takes longer than the period by a part of about 3/a.  Throws std::domain_error
+// where the trajectory does (bound_orbit.h).
+//
+// With N, E and Z to the north, to the east and away from us, the body is at
+//     N: r (cos Omega cos u - sin Omega sin u cos i),
+//     E: r (sin Omega cos u + cos Omega sin u cos i),
+//     Z: r sin u sin i,
+// where u is its angle from the node.  These are the rotations by u, i and Omega, one after the
+// other.
+void set_orbit(const OrbitalElements& elements, const SkyDirection& line_of_sight, Body& body) {
+  body.trajectory = bound_by_shape(semi_latus_rectum(elements), elements.eccentricity);
+  body.start = 0;
+  // The tangents of the sky there are found like those at an observer's own place (placement.h).
+  const M33d sky = place_tetrad({-line_of_sight.v}, std::numbers::pi / 2, 0);
+  const V3d away = column(sky, 0), north = -column(sky, 1), east = column(sky, 2);
+  const double cos_i = std::cos(elements.inclination), sin_i = std::sin(elements.inclination);
+  const double cos_node = std::cos(elements.node), sin_node = std::sin(elements.node);
+  const V3d node = north * cos_node + east * sin_node;
+  const V3d onward = (east * cos_node - north * sin_node) * cos_i + away * sin_i;
+  body.node = {node.normalized()};
+  body.normal = {node.cross(onward).normalized()};
+  body.azimuth = elements.pericentre;
+}
+
+void read_elements(const Item& item, const Show& to, std::optional<double> year, Body& body) {
+  const Section s(item, {"elements"});
+  const auto period = s.required("period_years"), eccentricity = s.required("eccentricity"),
+             inclination = s.required("inclination_deg"), node = s.required("node_deg"),
+             pericentre = s.required("pericentre_deg"), passage = s.required("pericentre_year");
+  if (passage && !year) {
+    s.find("pericentre_year")->fail("needs the show's begins_year, the year in which it begins");
+    return;
+  }
+  if (!period || !eccentricity || !inclination || !node || !pericentre || !passage) return;
+  constexpr double kSecondsPerYear = 365.25 * 86400;  // Julian
+  const double years_m = kSecondsPerYear / to.spacetime.seconds_per_m();
+  try {
+    set_orbit({*period * years_m, *eccentricity, radians(*inclination), radians(*node),
+               radians(*pericentre)},
+              to.hole_at, body);
+  } catch (const std::domain_error& error) {
+    item.fail(std::string("has an orbit that this hole does not have: ") + error.what());
+  }
+  body.null_time = (*passage - *year) * years_m;
+}
+
+// Returns V at kBodyMagnitudeDistance of a body with this absolute magnitude, which is that at 10
+// pc.  The two differ by 5 log10 of the ratio of the distances (the distance modulus).
+double near_magnitude(double absolute, double solar_masses) {
+  // A parsec is 648000/pi astronomical units (IAU 2015), of 149,597,870,700 m each.
+  constexpr double kTenParsecs = 1.0292712503e9;  // light seconds
+  const double distance = kBodyMagnitudeDistance * kSecondsPerSolarMass * solar_masses;
+  return absolute + 5 * std::log10(distance / kTenParsecs);
+}
+
+// Reads the light of a body.  Its magnitude is V at kBodyMagnitudeDistance, or an absolute one.
+void read_light(const Section& s, const Show& to, Body& body) {
+  body.temperature = s.number("temperature_k");
+  const Item* magnitude = s.one_of({"magnitude", "absolute_magnitude"});
+  const auto given = magnitude ? read_number(*magnitude, s.range("magnitude")) : std::nullopt;
+  if (given)
+    body.magnitude = magnitude == s.find("magnitude")
+                         ? *given
+                         : near_magnitude(*given, to.spacetime.solar_masses().value_or(1));
+  body.radius = s.given("radius").value_or(0);
+}
+
+// Returns the bolometric flux of a body at rest at kBodyMagnitudeDistance, in W/m^2.
+double flux_of(const Body& body) {
+  return std::pow(10, -0.4 * body.magnitude) * bolometric_flux_at_v_zero(body.temperature);
+}
+
+// Returns the radius (M) of a blackbody of that light.  One of the radius rho at the distance d
+// sends sigma T^4 (rho/d)^2.
+double radius_of_light(const Body& body) {
+  const double at_surface = std::numbers::pi * blackbody_radiance(body.temperature);
+  return kBodyMagnitudeDistance * std::sqrt(flux_of(body) / at_surface);
+}
+
+// Reports a body that is so large that it reaches the hole, and one with more light than the
+// renderer's floats hold.  What falls in need only be clear of the hole where its fall begins.
+void check_size(const Section& s, const Item& item, const Body& body, double horizon) {
+  constexpr double kMostFlux = 1e30;  // W/m^2
+  const Item* light = s.find("magnitude") ? s.find("magnitude") : s.find("absolute_magnitude");
+  if (!light) light = &item;
+  const auto [low, high] = reach(body.trajectory);
+  const double r = low > horizon ? low : high, clear = r - horizon;
+  const double radius = body.radius > 0 ? body.radius : radius_of_light(body);
+  const std::string limit = fmt::format("{} (units of M)", short_number(clear));
+  const std::string reason = fmt::format("it moves at r = {} M, and the horizon is at {} M",
+                                         short_number(r), short_number(horizon));
+  if (!(radius < clear) && body.radius > 0)
+    s.find("radius")->fail("must stay below " + limit + ", got " + as_written(*s.find("radius")) +
+                           ": " + reason);
+  else if (!(radius < clear))
+    light->fail(
+        fmt::format("asks for a sphere of the radius {:.3g} at {} K, which must stay below {}: {}; "
+                    "give a fainter magnitude, a higher temperature_k, or a radius",
+                    radius, short_number(body.temperature), limit, reason));
+  else if (!(flux_of(body) < kMostFlux))
+    light->fail(
+        fmt::format("asks for {:.3g} W/m^2 at {} K, which must stay below {}; give a fainter "
+                    "magnitude or a higher temperature_k",
+                    flux_of(body), short_number(body.temperature), short_number(kMostFlux)));
+}
+
+Body read_body(const std::string& name, const Item& item, const Show& to,
+               std::optional<double> year, Lookup& lookup) {
+  const Section s(item, {"bodies"});
+  Body body;
+  body.name = name;
+  const std::size_t problems = item.problems->count();
+  if (const Item* elements = s.find("elements")) {
+    for (const std::string_view key :
+         {"r", "trajectory", "begins_m", "inclination_deg", "node_deg", "azimuth_deg"})
+      s.one_of({"elements", key});
+    read_elements(*elements, to, year, body);
+  } else {
+    read_way(s, to, lookup, body);
+    const OrbitPlane plane = read_orbit_plane(s, to);
+    body.node = plane.node, body.normal = plane.normal;
+    body.azimuth = s.angle("azimuth_deg");
+    const auto begins = s.given("begins_m");
+    body.null_time = begins.value_or(0);
+    body.shines_before = !begins;
+  }
+  read_light(s, to, body);
+  if (item.problems->count() == problems) check_size(s, item, body, to.spacetime.horizon());
+  return body;
+}
+
+}  // namespace
+
+std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& lookup) {
+  std::vector<Body> bodies;
+  const auto year = show.given("begins_year");
+  const Item* list = show.find("bodies");
+  if (list == nullptr) return bodies;
+  if (to.spacetime.is_flat()) list->fail("need a black hole: give the show black_hole.mass_solar");
+  if (!list->node.IsMap()) {
+    list->fail("must be a map of names and bodies, e.g. {beacon: {r: 10}}, got " + kind_of(*list));
+    return bodies;
+  }
+  for (const auto& [name, item] : entries_of(*list))
+    bodies.push_back(read_body(name, item, to, year, lookup));
+  return bodies;
+}
+
+}  // namespace domefall

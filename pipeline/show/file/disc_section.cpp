@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "pipeline/show/file/sections.h"
+#include "pipeline/show/placement.h"
+
+namespace domefall {
+namespace {
+
+// Reads the radii.  A disc ends at the last stable orbit, or at the horizon if its gas plunges in.
+void read_radii(const Section& s, const Spacetime& spacetime, Disc& disc) {
+  if (disc.plunging)
+    disc.inner = s.given("inner_r", s.range("inner_r").at_least(spacetime.horizon()))
+                     .value_or(spacetime.horizon());
+  else
+    disc.inner = s.given("inner_r", s.range("inner_r").because("gas inside the last stable orbit "
+                                                               "falls in, with plunging: true"))
+                     .value_or(spacetime.last_stable_orbit());
+  disc.outer = s.number("outer_r");
+  if (disc.outer > disc.inner) return;
+  if (const Item* outer = s.find("outer_r"))
+    outer->fail(fmt::format("must exceed inner_r = {} (units of M), got {}",
+                            short_number(disc.inner), as_written(*outer)));
+  else if (const Item* inner = s.find("inner_r"))
+    inner->fail(fmt::format("must be below outer_r = {} (units of M), got {}",
+                            short_number(disc.outer), as_written(*inner)));
+}
+
+std::optional<PatternKind> read_pattern(const Item& item) {
+  enum class Type { kTurbulence, kRings, kSpot, kNone };
+  const Item* map = item.node.IsMap() ? &item : nullptr;
+  const auto type = map ? peek(item, "type") : std::optional(item);
+  if (!type) {
+    item.fail("needs a type: turbulence, rings or spot");
+    return std::nullopt;
+  }
+  const auto chosen = read_choice(*type, keys_of("pattern")[0].words());
+  if (!chosen) return std::nullopt;
+  switch (static_cast<Type>(*chosen)) {
+    case Type::kTurbulence: {
+      const Section s(map, {"pattern", "turbulence"});
+      return TurbulencePattern{s.number("contrast"), s.number("orbits"),
+                               static_cast<std::uint32_t>(s.whole("seed"))};
+    }
+    case Type::kRings: {
+      const Section s(map, {"pattern", "rings"});
+      return RingPattern{s.number("spacing_r"), s.number("contrast"), s.number("inward_speed")};
+    }
+    case Type::kSpot: {
+      const Section s(map, {"pattern", "spot"});
+      return SpotPattern{s.number("r"), s.angle("azimuth_deg"), s.number("size_r"),
+                         s.number("brightness")};
+    }
+    case Type::kNone:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+OrbitPlane read_orbit_plane(const Section& s, const Show& to) {
+  const double inclination = s.angle("inclination_deg");
+  const M33d at_node = place_tetrad(to.hole_at, to.heading, s.angle("node_deg"));
+  const V3d north = -column(at_node, 1), onward = column(at_node, 2);
+  // The motion at the node, normal x node = onward cos i + north sin i, rises to the north by the
+  // inclination i.  The axes have north x node = onward and onward x node = -north.
+  return {{column(at_node, 0)},
+          {(north * std::cos(inclination) - onward * std::sin(inclination)).normalized()}};
+}
+
+std::optional<Disc> read_disc(const Section& show, const Show& to) {
+  const Item* item = show.find("disc");
+  if (item == nullptr) return std::nullopt;
+  const Section s(item, {"disc"});
+  if (to.spacetime.is_flat()) item->fail("needs a black hole: give the show black_hole.mass_solar");
+  Disc disc;
+  disc.plunging = s.flag("plunging");
+  read_radii(s, to.spacetime, disc);
+  const OrbitPlane plane = read_orbit_plane(s, to);
+  disc.node = plane.node, disc.normal = plane.normal;
+  disc.t_max_k = s.number("t_max_k");
+  disc.luminance = s.number("luminance_cd_m2");
+  disc.opacity = s.number("opacity");
+  if (const Item* pattern = s.find("pattern")) disc.pattern = read_pattern(*pattern);
+  disc.slow_light = s.flag("slow_light");
+  return disc;
+}
+
+}  // namespace domefall

@@ -1,0 +1,118 @@
+#include "pipeline/show/file/sections.h"
+#include "pipeline/show/file/show_time.h"
+
+namespace domefall {
+namespace {
+
+void read_colours(const Section& cdl, std::string_view key, Channel red, ChannelValues& values) {
+  const Item* item = cdl.find(key);
+  if (!item) return;
+  const Range range = cdl.range(key);
+  const auto numbers = item->node.IsSequence() ? read_numbers(*item, 3, range) : std::nullopt;
+  const auto number = item->node.IsSequence() ? std::nullopt : read_number(*item, range);
+  for (std::size_t k = 0; k < 3 && (numbers || number); ++k)
+    values[colour_channel(red, k)] = numbers ? (*numbers)[k] : *number;
+}
+
+Keyframe read_keyframe(const Item& item, const KeyframeSpan& span,
+                       const std::vector<Marker>& markers, ShowCamera& camera, Lookup& lookup) {
+  const Section s(item, {"keyframes"});
+  Keyframe keyframe;
+  const Item* time = s.require("at_s", " (seconds)");
+  const auto at = time ? read_time(*time, s.range("at_s").at_most(span.latest), markers, span.start)
+                       : std::nullopt;
+  keyframe.at_s = span.start + at.value_or(0);
+  using enum Ease;
+  keyframe.ease = s.word("ease", {kSmooth, kLinear, kHold});
+  // A keyframe has numbers alone, since a background cannot turn into another one by degrees.
+  keyframe.values = read_values(s);
+  if (const Item* own = s.find("camera")) {
+    const CameraKeys keys = read_camera(*own, camera, lookup);
+    keyframe.attitude = keys.attitude;
+    lay_over(keyframe.values, keys.values);
+  }
+  // A name stands for what the camera looks at, so that a keyframe without an attitude enters none.
+  if (const Item* name = s.find("name"))
+    if (const auto text = read_text(*name); text && keyframe.attitude)
+      camera.keyframes[*text] = *keyframe.attitude;
+  return keyframe;
+}
+
+}  // namespace
+
+void read_cdl(const Section& grade, ChannelValues& values) {
+  const Section cdl(grade.find("cdl"), {"cdl"});
+  read_colours(cdl, "slope", Channel::kSlopeR, values);
+  read_colours(cdl, "offset", Channel::kOffsetR, values);
+  read_colours(cdl, "power", Channel::kPowerR, values);
+  values[Channel::kSaturation] = cdl.given("saturation");
+}
+
+ChannelValues read_values(const Section& section, const BackgroundReader& read_background) {
+  ChannelValues values;
+  values[Channel::kEv] = Section(section.find("exposure"), {"exposure"}).given("ev");
+  read_cdl(Section(section.find("grade"), {"grade.cdl"}), values);
+  const Section sky(section.find("sky"), {"sky"});
+  const std::string_view background = read_background ? "sky.background" : "sky.gain";
+  for (const SkyRegion region : kEverySky) {
+    const bool singularity = region == SkyRegion::kIV;
+    const std::string_view more = !singularity      ? "sky.stars"
+                                  : read_background ? "sky.rings"
+                                                    : "sky.gain";
+    const Section own(sky.find(kSkyKeys[region]), {"sky.gain", more, background});
+    values[gain_channel(region)] = own.given("gain");
+    if (read_background) read_background(region, own);
+    if (singularity) continue;
+    const Section stars(own.find("stars"), {"sky.light"});
+    values[star_gain_channel(region)] = stars.given("gain");
+    values[max_magnitude_channel(region)] = stars.given("max_magnitude");
+  }
+  return values;
+}
+
+std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span,
+                                     const std::vector<Marker>& markers, ShowCamera& camera,
+                                     Lookup& lookup) {
+  std::vector<Keyframe> keyframes;
+  const auto items = read_list(item);
+  if (!items) return keyframes;
+  for (const Item& entry : *items) {
+    keyframes.push_back(read_keyframe(entry, span, markers, camera, lookup));
+    const std::size_t n = keyframes.size();
+    // Two keyframes at one time are refused as well, since a curve through both would jump.  A time
+    // that is missing has been reported already.
+    if (n > 1 && !(keyframes[n - 1].at_s > keyframes[n - 2].at_s) && peek(entry, "at_s"))
+      peek(entry, "at_s")
+          ->fail("must be later than that of the keyframe before it, " +
+                 short_number(keyframes[n - 2].at_s - span.start) + " (seconds)");
+  }
+  return keyframes;
+}
+
+std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes, Channel channel,
+                                   double start, double value_there) {
+  Curve curve;
+  for (const Keyframe& keyframe : keyframes) {
+    const std::optional<double>& value = keyframe.values[channel];
+    if (!value) continue;
+    // Without a key at its start the curve would have the first keyframe's value before it already.
+    if (curve.keys.empty() && keyframe.at_s > start) curve.keys.push_back({start, value_there});
+    curve.keys.push_back({keyframe.at_s, *value, keyframe.ease});
+  }
+  if (curve.keys.empty()) return std::nullopt;
+  return curve;
+}
+
+// An attitude at the start stands in as a value does in curve_through().
+std::vector<AttitudeKey> attitudes_through(const std::vector<Keyframe>& keyframes, double start,
+                                           const Attitude& attitude_there) {
+  std::vector<AttitudeKey> keys;
+  for (const Keyframe& keyframe : keyframes) {
+    if (!keyframe.attitude) continue;
+    if (keys.empty() && keyframe.at_s > start) keys.push_back({start, attitude_there});
+    keys.push_back({keyframe.at_s, *keyframe.attitude, keyframe.ease});
+  }
+  return keys;
+}
+
+}  // namespace domefall

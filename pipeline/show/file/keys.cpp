@@ -1,0 +1,352 @@
+#include "pipeline/show/file/keys.h"
+
+#include <charconv>
+#include <map>
+#include <stdexcept>
+
+namespace domefall {
+namespace {
+
+// One row a key, below the name of its table.
+constexpr std::string_view kRows = R"(
+## show
+| `title` | one line of text | the file's name without `.yaml` |
+| `frames_per_second` | 1 to 240 frames per second: also as a fraction such as 24000/1001; 23.98, 29.97 and the like stand for n 1000/1001 | [30] |
+| `size` | for a dome `1k`, `2k`, `4k`, `8k` or 16 to 16384 pixels; for a flat picture `[width, height]`, each 16 to 16384; for others see [projections](#projections) | [`4k`], flat [`[1920, 1080]`] |
+| `black_hole`, `camera`, `effects`, `sky`, `stars`, `disc`, `bodies`, `exposure`, `grade`, `dome`, `output` | sections, below | |
+| `begins_year` | -1e6 to 1e6 years: the year in which the show begins, for bodies given by their [elements](#orbits-by-elements) | |
+| `cameras` | further cameras by name, [below](#cameras) | |
+| `keyframes` | what changes during the show, [below](#keyframes) | |
+| `titles` | texts on the dome, [below](#titles) | |
+| `markers` | names for instants of the show, `{door_opens: 0:34}`, [below](#times-and-markers) | |
+| `fade_in_s`, `fade_out_s` | at least 0: seconds in which the show comes out of black at its start, and sinks to black at its end | [0] |
+| `timeline` | the list of segments, below | required |
+## black_hole
+| `mass_solar` | 0 to 1e13 solar masses; 0 is flat space: from 1e-20 on, or 0 for no hole | [0] |
+| `at` | where the hole stands on the sky at the start: a [place on the sky](#places-on-the-sky) | [266.405, -28.936: the galactic centre] |
+| `heading_deg` | -360 to 360: in which direction orbits set out, from north through east | [90] |
+## place
+| `ra_deg` | 0 to 360: right ascension (J2000) in decimal degrees | these two or |
+| `dec_deg` | -90 to 90: declination | |
+| `star` | the name of a place, as it may stand in the place of the map | this |
+## timeline
+| `duration_s` | above 0, at most 1e7: seconds of show, or `0:34`; or the [marker](#times-and-markers) at which the segment ends | required |
+| `trajectory` | how the observer moves, below | required; at rest in flat space |
+| `fade_in_s`, `fade_out_s` | at least 0: seconds in which the segment comes out of black, and sinks to it | [0] |
+| `dissolve_s` | at least 0: a cross-dissolve: the segment's first seconds lie over the last ones of the segment before, and both are seen, the one fading into the other. At most as long as either | [0]: a cut |
+| `camera` | keys of `camera` that differ in this segment, or the name of one of the `cameras` | the show's camera |
+| `exposure`, `grade`, `sky` | what differs in this segment: `exposure: {ev}`, `grade: {cdl}`, `sky: {region_I: {background, white_cd_m2, black_cd_m2, gain, stars: {max_magnitude, gain}}, region_III: the same, region_IV: {background, white_cd_m2, black_cd_m2, period_m, gain}}`. A background that a segment names has its own white and black; what else a segment does not name is the show's; its `region_III` does not follow its `region_I` | the show's |
+| `keyframes` | what changes during the segment, [below](#keyframes) | |
+| `titles` | texts that are seen in this segment, [below](#titles) | |
+## trajectory
+| `type` | one of the types below | required |
+## region
+| `region` | `I` or `III`: the universe in which it happens | [`I`] |
+## begin
+| `from_r` | 1e-6 to 1e9: where the segment begins | |
+| `from_leg` | `inward` or `outward`: on which leg `from_r` lies | [`inward`] |
+| `from_tau_m` | -1e15 to 1e15: the beginning by proper time; r must be from 1e-6 to 1e9 there | |
+## end
+| `to_r` | 1e-6 to 1e9: where the segment ends: the first place behind the beginning with this r, on either leg unless one is named | |
+| `to_leg` | `inward` or `outward`: on which leg `to_r` lies | |
+| `to_tau_m` | -1e15 to 1e15: the end by proper time, likewise | |
+## rates
+| `rate_m_per_s` | 0 to 1e12 units of M per second of show: of the observer's proper time, instead of an end; `[2, 0.5]` changes the rate smoothly from the segment's beginning to its end, so that segments whose rates meet join without a jerk. Two rates can be given with an end too, [below](#both-speeds-and-the-end) | [1] |
+| `time_lapse` | 0 to 1e12 real seconds per second of show: the same | |
+## pace
+| `pace` | `steady`, `eased`, `eased_in`, `eased_out`, `slowing`, `quickening`, `log_r` or `frozen`: `eased` goes from standing still to standing still, `eased_in` and `eased_out` do so at one end only; with `slowing`, before the singularity, the time left falls by equal factors in equal times, and `quickening` is the same backwards, after the past one; with `log_r` r changes by equal factors in equal times, inside or outside, where it only falls or only rises; `frozen` is time that stands still | [`steady`] |
+## parabolic
+| `periastron` | 1e-6 to 1e9 M: its smallest r, which exceeds 4; or | |
+| `angular_momentum` | 0 to 1e9 M: more than 4; or | |
+| `excess` | 1e-20 to 1e9: of the angular momentum over 4 M, as a part of it: 1e-10 is L = 4 (1 + 1e-10), which circles long at r = 4 before it comes back | |
+## hyperbolic
+| `v_inf` | above 0, below 1 speed of light = 1: the speed at infinity, 1e-9 to below 1 - 1e-12 | |
+| `periastron` | 1e-6 to 1e9 M: its smallest r, which exceeds 3. Below 4 only a speed of more than sqrt(4 - r)/(r - 2) brings it back; or | |
+| `impact_parameter` | 0 to 1e9 M: how far it would pass by without gravity; or | |
+| `excess` | 1e-20 to 1e9: with `periastron` instead of `v_inf`: by which part the speed lies above that slowest one; with `v_inf` alone: by which part the impact parameter lies above that of capture | |
+## bound
+| `periastron`, `apoastron` | 1e-6 to 1e9 M: its smallest and its largest r; or | |
+| `eccentricity` | 0 to below 1: e of r = p/(1 + e cos x), with | |
+| `semilatus_rectum` | 1e-6 to 1e9 M: p, more than 6 + 2e; or with | |
+| `excess` | 1e-20 to 1e9: p - 6 - 2e: the closest orbits circle many times at each periastron | |
+## infall
+| `from_r` | above 0, at most 1e9: where the segment begins | required; with `rest_r` that |
+| `to_r` | 1e-6 to 1e9: where it ends, below `from_r` | [0.05] |
+| `rest_r` | above 2, at most 1e9: from rest at this r | |
+| `angular_momentum` | 0 to 1e9 M: of a fall from infinity below 4 M, of one from `rest_r` less than would keep it there | [0] |
+| `v_inf` | above 0, below 1 speed of light = 1: from infinity with this speed, and | |
+| `impact_parameter` | 0 to 1e9 M: how far it would pass by without gravity; small enough to be captured | |
+## circular
+| `r` | above 3, at most 1e9: of the orbit | required |
+| `orbits` | 0 to 1e6 revolutions: how many orbits in the segment | |
+## thrown
+| `from_r` | 1e-6 to 1e9: where it is thrown | required |
+## kruskal
+| `energy` | 0 to 1e6: per unit of mass. 0: from IV to II through the throat itself, at r = 2. From 1e-6 to below 1: out into region I, to rest at r = 2/(1 - energy²) if it has no angular momentum, and back into II. 1 and more: out to infinity, or, with much angular momentum, around and back into II | [1] |
+| `angular_momentum` | 0 to 1e9 M: around the hole | [0] |
+## body
+| `body` | the name of the body | required |
+| `behind_m` | -1e9 to 1e9: follows it on the same way, so many M of v later; ahead of it if negative | [0] |
+## path
+| `keyframes` | a list of places and times, with the keys below | this or |
+| `file` | a CSV file with the columns `proper_time`, `r` and perhaps `azimuth_deg`, `tetrad`, `celerity_r`, `celerity_phi` as `domefall states` writes them | this |
+## path.keyframes
+| `at_m` | -1e12 to 1e12: the observer's own time | required |
+| `r` | 1e-6 to 1e9: where it is then | required |
+| `azimuth_deg` | -1e9 to 1e9: where it is then | [0] |
+## static
+| `r` | above 2, at most 1e9: near a hole; not allowed in flat space | required |
+## speed
+| `speed` | 0 to below 1 speed of light = 1: or two of them, `[0, 0.9]`: the rapidity changes evenly, as under constant acceleration | this or |
+| `lorentz_factor` | 1 to 1e9: or two of them | this is required |
+| `direction` | `inward`, `outward`, `forward`, `backward` (along an orbit), `north`, `south` (across it); `{radial, theta, phi}`; or a place on the sky | required unless the speed is 0 |
+## direction
+| `radial`, `theta`, `phi` | -1e9 to 1e9: components of a `direction`, of any length but 0 | [0] |
+## velocity
+| `r` | above 2, at most 1e9: with another `against` than `static` from 1e-6. Not in flat space | required near a hole |
+## against
+| `region` | `I`, `II`, `III` or `IV`: the outside, inside the black hole, the other outside, or the white hole, before the past horizon | `I` outside; inside, where `against` is found |
+| `against` | `static`, `free_fall`, `outgoing` or `constant_t`: the observer against whom the speed is measured: at rest (I and III), falling in (I, II and III), thrown out, to rest far away (I, III and IV), or at rest in t, midway between both outsides (II and IV) | [`static`] |
+## camera
+| `projection` | `domemaster`, `fisheye`, `equirectangular`, `cubemap`, `stereographic` or `rectilinear`: [below](#projections) | [`domemaster`] |
+| `cut` | `back`, `front` or `both`: of fisheyes lower than wide, where rows are missing | [`back`] |
+| `fov_deg` | flat pictures: horizontal angle of view, between 0 and 360, rectilinear ones at most 170; fisheyes: angle across the circle, up to 360 | [90], fisheye [180] |
+| `look_at` | the target: `hole`, `outward` (away from it), `motion`, a place on the sky, or a map of one of the keys below | [`hole`] |
+| `euler_deg` | -3600 to 3600: `[phi, theta, psi]`, instead of `look_at`, `roll_deg` and `elevation_deg` | |
+| `roll_deg` | -3600 to 3600: turns the scene clockwise about the target | |
+| `elevation_deg` | -90 to 90: on domes, and pictures of the whole sphere, height of the target above the front of the rim, or of the horizon | [45] |
+| `dome_tilt_deg` | -90 to 90: how far such a dome leans to the front; is added to the elevation | [0] |
+## look_at
+| `keyframe` | the name of an earlier keyframe: what it looks at | |
+| `body` | the name of one of the show's [bodies](#bodies): its direct image, or the hole where there is none | |
+## keyframes
+| `at_s` | at least 0: a [time](#times-and-markers) since the start of the show, or of the segment, or a marker | required |
+| `camera` | its keys as above, without `projection` and `cut`, or the name of one of the `cameras` | |
+| `exposure`, `grade`, `sky` | as in a segment, without backgrounds | |
+| `ease` | `smooth`, `linear` or `hold`: how the values of this keyframe are reached from the keyframe before that gives them; `hold` keeps the old values until this keyframe | [`smooth`] |
+| `name` | a name by which later keyframes look at the same target: `look_at: {keyframe: NAME}` | |
+## titles
+| `text` | up to 2,000 bytes in any script that the machine has fonts for; several lines in a block after `|` | required |
+| `at_s` | at least 0: a [time](#times-and-markers) since the start of the show, or of the segment, or a marker | [0] |
+| `duration_s` | above 0: seconds, or the marker at which the title goes | [to the end of the show, or of the segment] |
+| `fade_in_s`, `fade_out_s` | at least 0: seconds, of the duration, in which it comes and goes | [0] |
+| `azimuth_deg` | -360 to 360: where its middle is, to the right of the audience's front: 90 is at the right hand, 180 behind | [0] |
+| `elevation_deg` | -90 to 90: above the audience's horizon; on a flat picture above its middle | [30], flat [0] |
+| `height_deg` | above 0, at most 60: of a capital letter | [2] |
+| `font` | a family and perhaps a style: `DejaVu Serif Bold Italic` | [`Sans`] |
+| `align` | `left`, `centre` or `right`: of lines of different lengths | [`centre`] |
+| `colour` | 0 to 1: `[red, green, blue]`, linear light with the primaries of Rec.709 | [[1, 1, 1]] |
+| `brightness` | 0 to 10000 pixel values: of its white | [1] |
+## sky
+| `region_I` | the sky outside, with the keys below | |
+| `region_III` | the other sky, with the same keys | like `region_I` |
+| `region_IV` | the past singularity: a `background` seen as a sphere, or `rings`, or a map of the keys below. No stars, no redshift | [`black`] |
+## sky.law
+| `blueshift_power` | 0 to 10: a panorama grows brighter by (1 + z) to minus this power where its light is shifted to the blue | [2] |
+| `epoch` | -10000 to 30000 Julian years: stars with a proper motion stand where they stand then, such as 2026.5 | [2000]: as catalogued |
+## sky.gain
+| `gain` | 0 to 1e6: a factor on the background; 1 is physical | [1] |
+## sky.stars
+| `stars` | `none`, `standard`, `naked_eye`, `deepest`, a catalogue file, or `{catalogue, max_magnitude, gain}` | [`standard`] |
+## sky.background
+| `background` | `milky_way`, `grid` (5-degree squares), `black`, a `.sky` file, or an image: equirectangular, equatorial, right ascension 0 in the middle and growing to the left | [`milky_way`] |
+| `white_cd_m2` | above 0, at most 1e12 cd/m^2: of an image, the luminance of its white | [1e-3], which is pixel value 1 at 0 EV |
+| `black_cd_m2` | 0 to 1e6 cd/m^2, or auto, or none: what is black on a map; `auto` is the map's own darkest 1 % | [`auto`] |
+## sky.rings
+| `period_m` | 1e-3 to 1e9: of `rings` in region IV, from one to the next | [4] |
+## sky.catalogue
+| `catalogue` | `standard` (131,085 stars to V = 9), `naked_eye` (those of them to 6.5), `deepest`, a `.stars` file or a CSV file | [`standard`] |
+## sky.light
+| `max_magnitude` | -30 to 40 magnitudes: the faintest stars taken | [all of a `.stars` file; `naked_eye` 6.5; a CSV 9] |
+| `gain` | 0 to 1e6: a factor on their light; 1 is physical | [0.4], with `stars: {law: size}` 1 |
+## effects
+| `aberration` | `true` or `false`: with `false` everything stands where an observer at rest at the same place sees it | [`true`] |
+| `doppler_colour` | `true` or `false`: with `false` light keeps the colour that it has at rest | [`true`] |
+| `intensity` | `true` or `false`: with `false` a shift of frequency changes colours only; the bolometric intensity stays | [`true`] |
+| `lensing` | `true` or `false`: with `false` light comes in straight lines, as if the hole were not there; no silhouette. Outside the horizon only: a show with a frame at r = 2 or below is refused | [`true`] |
+| `amplification` | `stars`, `none` or `everything`: what grows brighter as it is magnified: point sources only, as in nature; not even these; or backgrounds too, to show where there is magnification and how much | [`stars`] |
+## stars
+| `law` | `size` or `psf`: with `psf` all stars are alike, as a lens draws them: a point that is the brighter the more light it has, and a glow around bright ones; `size` is the paper's: the brighter a star, the larger its blob | [`psf`], but `size` where a key of `size` is given |
+| `min_sigma_deg` | above 0, at most 10: width (sigma) of every star's middle, with `size` of a faint star's blob; never below 0.9 pixel | [0.04] |
+| `growth` | 0 to 0.5: how fast bright stars grow; 0 not at all, 0.5 so that all are equally bright at their centre (`size`) | [0.2] |
+| `reference_magnitude` | -30 to 40 magnitudes: brighter stars than this grow (`size`) | [5] |
+| `max_sigma_deg` | above 0, at most 10: widest blob, from `min_sigma_deg` on (`size`) | [0.3] or `min_sigma_deg` if that is larger |
+| `halo` | above 0, at most 0.9: the part of its light that a bright star has in its glow (`psf`) | [0.12] |
+| `halo_sigma_deg` | above 0, at most 3: width of the glow's inner half; three tenths of its light reach 2.5 times as far, two tenths 6 times (`psf`) | [0.08] |
+| `white_core` | 0 to 1e6: pixel value at which the colour of a blob is half way to white; 0: never | [0], with `size` 10 |
+| `saturation` | 0 to 2: how far colours are from grey; 1 is the colour that the CIE's observer sees of a blackbody | [0.8], with `size` 1 |
+| `least_radius_deg` | above 0, at most 1: the angular radius that every star has at least, below | [0.005] |
+## disc
+| `inner_r` | 6 to 1e6: where it ends inside, with `plunging: true` from 2 on | [6, the last stable orbit; with `plunging` 2, the horizon] |
+| `outer_r` | above 2, at most 1e6: where it ends outside, above `inner_r` | [20] |
+| `inclination_deg` | 0 to 180: the angle between its plane and that of the orbits that set out as `heading_deg` says; with more than 90 it turns against them | [10] |
+| `node_deg` | -360 to 360: where its gas rises through the plane of the orbits to their north, as an azimuth from the observer's first place in the sense of the orbits | [90] |
+| `t_max_k` | 1000 to 1e9: the temperature of its hottest ring | [10000] |
+| `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: how bright that ring is to an observer who moves with it | [1e-3, which is pixel value 1 at 0 EV] |
+| `opacity` | 0 to 1: the part of the light from behind it that it takes away; its own light is the same part of what it would be | [1] |
+| `plunging` | `true` or `false`: whether gas falls in from the last stable orbit and shines on its way | [`false`] |
+| `pattern` | `turbulence`, `rings`, `spot` or `none`: or a map with one of these as `type` and the keys below | [`none`] |
+| `slow_light` | `true` or `false`: whether a pattern is seen as it was when the light left it; with `false` all of it is seen at one time | [`true`] |
+## pattern
+| `type` | `turbulence`, `rings`, `spot` or `none`: a pattern with the keys below | required |
+## turbulence
+| `contrast` | 0 to 1: with 1 the gaps go dark | [1] |
+| `orbits` | 0.5 to 20 orbits: of its place, as long as a filament lives | [2] |
+| `seed` | 0 to 1e9: a whole number; another one is another pattern of the same kind | [1] |
+## rings
+| `spacing_r` | 0.01 to 1000: from one ring to the next | [2] |
+| `contrast` | 0 to 1: with 1 the gaps go dark | [0.8] |
+| `inward_speed` | 0 to 0.5 parts of the speed of light: how fast they drift inwards | [0.02] |
+## spot
+| `r` | 6 to 1e6: the radius of its orbit | [8] |
+| `azimuth_deg` | -360 to 360: where it is at t = 0, in its orbit's sense from where the gas rises through the plane of the observer's orbits | [0] |
+| `size_r` | 0.01 to 10: the standard deviation of its brightness | [0.7] |
+| `brightness` | 1 to 1e4 times the gas beside it: of its middle | [5] |
+## bodies
+| `r` | above 3, at most 1e9: radius of its circular orbit | one of the three |
+| `trajectory` | how it moves otherwise: of type `static`, `circular`, `parabolic`, `hyperbolic`, `bound`, `infall` or `thrown`, by the keys of [timeline](#timeline) that say what it is and where it begins; none that says where a segment ends or how its clock runs | |
+| `elements` | its orbit as astronomers publish it, [below](#orbits-by-elements) | |
+| `begins_m` | -1e9 to 1e9: its v = t + r\*, counted from the show's start, when it is where `trajectory` begins; before that it does not shine. The observer's v is the `null_time` of `domefall states` | it begins with the show, and has come that way before |
+| `inclination_deg` | 0 to 180: angle of its orbit's plane to that of the first orbit; beyond 90 it goes the other way | [0] |
+| `node_deg` | -360 to 360: azimuth, from the observer's first place, at which it rises to the north of that plane | [0] |
+| `azimuth_deg` | -3600 to 3600: its azimuth from the node where it begins: at the instant that light falling straight in shares with the show's start (its v = 0), or at `begins_m` | [0] |
+| `temperature_k` | 100 to 1e9: colour of its light, a blackbody's | [6000] |
+| `magnitude` | -100 to 100 magnitudes: visual magnitude that it would have at a distance of 100 M, at rest and without the hole | [0] |
+| `absolute_magnitude` | -100 to 100 magnitudes: instead, that at 10 pc, as catalogues have it | |
+| `radius` | above 0, at most 1e6 M: of a glowing sphere. It shares the light of the `magnitude` evenly over its disc. The sphere must stay clear of the horizon on its orbit; if the body falls in, where its fall begins | [a point] |
+## elements
+| `period_years` | above 0, at most 1e9 years: Julian, of the ellipse | required |
+| `eccentricity` | 0 to below 1: of the ellipse | required |
+| `inclination_deg` | 0 to 180: of its plane to that of the sky; below 90 it goes counter-clockwise there | required |
+| `node_deg` | -360 to 360: position angle, from north through east, of the node at which it recedes | required |
+| `pericentre_deg` | -360 to 360: from the node to the pericentre, in the sense of its motion | required |
+| `pericentre_year` | -1e6 to 1e6 years: of the hole's light, v, as the show's `begins_year` | required |
+## exposure
+| `ev` | -30 to 30 stops: +1 doubles the light | [0] |
+## shutter
+| `shutter_deg` | 0 to 360: how long the shutter is open, as a film camera's: 180 is half the time from one frame to the next, 360 all of it; 0 is the instant alone | [0] |
+## grade
+| `config` | an OpenColorIO configuration | the one that Domefall ships |
+| `display`, `view` | names from that configuration; [grading.md](grading.md) describes the shipped ones and how to choose | its defaults |
+## grade.cdl
+| `cdl` | ASC CDL, applied before the view in ACEScct, a logarithmic space, where slope is contrast and a little offset is exposure; the keys below, each but the last one number or `[red, green, blue]` | leaves the picture as it is |
+## cdl
+| `slope` | 0 to 1e6: a factor | [1] |
+| `offset` | -1e6 to 1e6: what is added | [0] |
+| `power` | above 0, at most 100: an exponent | [1] |
+| `saturation` | 0 to 100: 0 is grey | [1] |
+## dome
+| `light` | `none`, `simulate` or `compensate`: what is done about the light that a dome throws upon itself: `simulate` is for graded frames that look on a screen as the show will in the dome, `compensate` for frames that look in the dome as the show does on a screen. For the projection `domemaster` only; it acts on graded frames and previews, not on the scene-linear ones | [`none`] |
+| `reflectance` | 0 to 1: the part of light that the dome's surface reflects | [0.45] |
+## output
+| `linear` | `half`, `float` or `none`: scene-linear OpenEXR, of 16-bit floats or of 32 bits, twice the size, for compositing: bright stars beyond 65504 keep their light and dim ones their digits. A change from one to the other makes all frames again | [`half`] |
+| `layers` | a list of any of `sky`, `stars`, `disc`, `bodies` and `titles`: these parts of the light, too, in the scene-linear files, as [compositing.md](compositing.md) says | none |
+| `compression` | `zip`, `zips`, `piz` or `none`: of the scene-linear files, all without loss: blocks of 16 rows, single rows, or wavelets, which are smaller for noise and three times slower to read | [`zip`] |
+| `graded` | `png16`, `png8`, `jpeg`, `tiff16`, `tiff8`, `png`, `tiff` or `none`: display-ready files; those without a number have 16 bits | [`png16`] |
+| `quality` | 1 to 100: of a JPEG | [95] |
+| `name` | what the files are called before `_00000`, up to 200 bytes | the show's file name |
+| `start` | 0 to 1e9: the number of frame 0 | [0] |
+| `digits` | 1 to 10: filled up with zeros; a larger number has more | [5] |
+| `per_folder` | 1 to 10000: so many frames share a folder, `graded/NAME_00000-09999/NAME_00000.png` | all are in one |
+| `owner` | whose the pictures are, as the attribute `owner` of scene-linear files; frames that are there keep theirs | nothing |
+)";
+
+// Takes the names of a row's first cell, and gives each the other two.
+void add_row(std::string_view row, std::vector<Key>& keys) {
+  const std::size_t first = row.find(" | "), last = row.rfind(" |", row.size() - 3);
+  const std::string_view value = row.substr(first + 3, last - first - 3);
+  const std::string_view fallback = row.substr(last + 3, row.size() - last - 5);
+  std::string_view names = row.substr(0, first);
+  for (std::size_t at = names.find('`'); at != std::string_view::npos; at = names.find('`')) {
+    names.remove_prefix(at + 1);
+    keys.push_back({names.substr(0, names.find('`')), value, fallback});
+    names.remove_prefix(names.find('`') + 1);
+  }
+}
+
+std::map<std::string_view, std::vector<Key>> read_tables() {
+  std::map<std::string_view, std::vector<Key>> tables;
+  std::vector<Key>* table = nullptr;
+  for (std::string_view rest = kRows; !rest.empty(); rest.remove_prefix(rest.find('\n') + 1)) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    if (line.starts_with("## "))
+      table = &tables[line.substr(3)];
+    else if (!line.empty())
+      add_row(line, *table);
+  }
+  return tables;
+}
+
+// Takes words and the number behind them from the front of a text.
+std::optional<double> take(std::string_view& text, std::string_view words) {
+  if (!text.starts_with(words)) return std::nullopt;
+  double number = 0;
+  const char* begin = text.data() + words.size();
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
+  if (error != std::errc()) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return number;
+}
+
+// Returns the unit that a key's name ends with.
+std::string_view unit_of(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"_deg", "degrees"},
+                                                                      {"_s", "seconds"},
+                                                                      {"_k", "kelvin"},
+                                                                      {"_m", "units of M"},
+                                                                      {"_r", "units of M"}};
+  for (const auto& [end, unit] : kUnits)
+    if (name.ends_with(end) || name == end.substr(1)) return unit;
+  return {};
+}
+
+}  // namespace
+
+Range Key::range() const {
+  std::string_view rest = value.substr(0, value.find(':'));
+  Range range;
+  if (const auto above = take(rest, "above "))
+    range = range.above(*above);
+  else if (const auto least = take(rest, rest.starts_with("at least ") ? "at least " : ""))
+    range = range.at_least(*least);
+  else
+    throw std::logic_error("the key " + std::string(name) + " has no range");
+  if (const auto below = take(rest, rest.starts_with(", below ") ? ", below " : " to below "))
+    range = range.below(*below);
+  else if (const auto most = take(rest, rest.starts_with(", at most ") ? ", at most " : " to "))
+    range = range.at_most(*most);
+  if (rest.starts_with(' ')) rest.remove_prefix(1);
+  range.unit = rest.empty() ? unit_of(name) : rest == "M" ? "units of M" : rest;
+  return range;
+}
+
+std::vector<std::string_view> Key::words() const {
+  std::vector<std::string_view> words;
+  const std::string_view all = value.substr(0, value.find(':'));
+  for (std::size_t at = all.find('`'); at != std::string_view::npos;) {
+    const std::size_t end = all.find('`', at + 1);
+    words.push_back(all.substr(at + 1, end - at - 1));
+    at = all.find('`', end + 1);
+  }
+  return words;
+}
+
+std::string_view Key::word() const {
+  const std::size_t at = fallback.starts_with("[`") ? 2 : fallback.size();
+  return fallback.substr(at, fallback.find('`', at) - at);
+}
+
+double Key::number() const {
+  std::string_view text = fallback;
+  if (const auto number = take(text, "[")) return *number;
+  throw std::logic_error("the key " + std::string(name) + " has no number as its default");
+}
+
+const std::vector<Key>& keys_of(std::string_view table) {
+  static const auto tables = read_tables();
+  return tables.at(table);
+}
+
+std::string_view rows_of_keys() { return kRows; }
+
+}  // namespace domefall

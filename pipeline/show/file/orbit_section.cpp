@@ -1,0 +1,251 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "pipeline/show/file/trajectory_section.h"
+#include "trajectories/bound_orbit.h"
+#include "trajectories/hyperbolic_orbit.h"
+#include "trajectories/infall.h"
+#include "trajectories/kruskal_crossing.h"
+#include "trajectories/parabolic_orbit.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kFallEnd = 0.05;  // M; where falls end by default
+
+// Returns a section with the keys of one type and those of every orbit.
+Section orbit_section(const Item& item, std::string_view type) {
+  return {item, {"trajectory", "region", "begin", type, "end", "rates", "pace"}};
+}
+
+// Reports that an orbit does not exist.  Trajectories begin their messages with the name of the
+// quantity that is out of bounds.  If the show gives that quantity, its key is blamed, and else the
+// key `asked`.
+void fail_impossible(const Section& s, const Item& asked, const std::string& message) {
+  const std::size_t space = message.find(' ');
+  const std::string_view quantity = std::string_view(message).substr(0, space);
+  // The factory of bound orbits calls the semilatus rectum p (bound_orbit.h).
+  const Item* key = s.find(quantity == "p" ? "semilatus_rectum" : quantity);
+  if (key)
+    key->fail(message.substr(space + 1));
+  else
+    asked.fail("asks for what does not exist: " + message);
+}
+
+// Returns what make() returns, or reports the error that it throws if the orbit does not exist.
+template <class Make>
+std::optional<Geodesic> made(const Section& s, const Item& asked, const Make& make) {
+  try {
+    return make();
+  } catch (const std::domain_error& error) {
+    fail_impossible(s, asked, error.what());
+    return std::nullopt;
+  }
+}
+
+std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage, const Geodesic& orbit,
+                                     const Defaults& start, Placement placement = {}) {
+  if (const auto timing = read_timing(s, stage, orbit, start))
+    return TimedTrajectory{orbit, *timing, placement};
+  return std::nullopt;
+}
+
+std::optional<Geodesic> read_escape(const Section& s, const Item& by) {
+  if (const auto r = s.given("periastron"); r && &by == s.find("periastron"))
+    return made(s, by, [&] { return parabolic_by_periastron(*r); });
+  if (const auto momentum = s.given("angular_momentum"))
+    return made(s, by, [&] { return parabolic_by_angular_momentum(*momentum); });
+  if (const auto excess = s.given("excess"))
+    return made(s, by, [&] { return parabolic_by_excess(*excess); });
+  return std::nullopt;
+}
+
+// Reads a hyperbolic orbit, which two quantities give.  An excess stands for the speed beside a
+// periastron, and for the impact parameter beside a speed.
+std::optional<Geodesic> read_scattering(const Section& s, const Item& by) {
+  const Item* excess_item = s.find("excess");
+  const auto excess = s.given("excess");
+  const auto r = s.given("periastron");
+  if (r && excess_item) {
+    if (const Item* v = s.find("v_inf")) {
+      v->fail("excludes excess, which says how far it lies above the slowest possible");
+      return std::nullopt;
+    }
+    if (!excess) return std::nullopt;
+    return made(s, *excess_item, [&] { return hyperbolic_by_speed_excess(*r, *excess); });
+  }
+  const auto v = s.required("v_inf");
+  if (!v) return std::nullopt;
+  if (&by == excess_item) {
+    if (!excess) return std::nullopt;
+    return made(s, by, [&] { return hyperbolic_by_impact_excess(*v, *excess); });
+  }
+  if (r) return made(s, by, [&] { return hyperbolic_by_periastron(*v, *r); });
+  if (const auto b = s.given("impact_parameter"))
+    return made(s, by, [&] { return hyperbolic_by_impact_parameter(*v, *b); });
+  return std::nullopt;
+}
+
+std::optional<Geodesic> read_ellipse(const Section& s) {
+  if (s.find("periastron") || s.find("apoastron")) {
+    const auto low = s.required("periastron");
+    const auto high = s.required("apoastron");
+    if (!low || !high) return std::nullopt;
+    return made(s, *s.find("periastron"), [&] { return bound_by_turning_points(*low, *high); });
+  }
+  const auto e = s.required("eccentricity");
+  if (const Item* excess = s.find("excess")) {
+    const auto value = s.given("excess");
+    if (!e || !value) return std::nullopt;
+    return made(s, *excess, [&] { return bound_by_excess(*e, *value); });
+  }
+  const auto p = s.required("semilatus_rectum");
+  if (!e || !p) return std::nullopt;
+  return made(s, *s.find("semilatus_rectum"), [&] { return bound_by_shape(*p, *e); });
+}
+
+std::optional<Geodesic> read_captured(const Section& s) {
+  const auto from_r = s.required("from_r");
+  if (s.find("v_inf")) {
+    if (const Item* momentum = s.find("angular_momentum")) {
+      momentum->fail("goes with a fall from rest; with v_inf give impact_parameter");
+      return std::nullopt;
+    }
+    const auto v = s.given("v_inf");
+    const auto b = s.required("impact_parameter");
+    if (!from_r || !v || !b) return std::nullopt;
+    return made(s, *s.find("impact_parameter"), [&] { return fall_with_speed(*v, *b, *from_r); });
+  }
+  const double momentum = s.number("angular_momentum");
+  if (!from_r) return std::nullopt;
+  const Item* blamed = s.find("angular_momentum") ? s.find("angular_momentum") : s.find("from_r");
+  return made(s, *blamed, [&] { return fall_from_infinity(momentum, *from_r); });
+}
+
+std::optional<Geodesic> read_dropped(const Section& s) {
+  const auto rest_r =
+      s.given("rest_r", s.range("rest_r").because("nothing rests at or inside the horizon"));
+  const double momentum = s.number("angular_momentum");
+  if (!rest_r) return std::nullopt;
+  const Item* blamed = s.find("angular_momentum") ? s.find("angular_momentum") : s.find("rest_r");
+  return made(s, *blamed, [&] { return fall_from_rest(*rest_r, momentum); });
+}
+
+// Returns the placement of an orbit that sets out with this celerity, which may leave the plane of
+// the orbit before.  The plane turns by a right angle at most, since an orbit can run backward in
+// it.
+Placement placement_of(const V3d& celerity, bool mirrored) {
+  Placement placement{mirrored};
+  // The components of a celerity are those along R, Theta and Phi, and -Theta is north.
+  const double north = -celerity.y, forward = celerity.z;
+  if (!(std::hypot(north, forward) > 0)) return placement;
+  placement.backward = forward < 0;
+  placement.turn = placement.backward ? std::atan2(-north, -forward) : std::atan2(north, forward);
+  return placement;
+}
+
+}  // namespace
+
+std::optional<TimedTrajectory> read_parabolic(const Item& item, const Stage& stage, Lookup&) {
+  const Section s = orbit_section(item, "parabolic");
+  const bool mirrored = is_in_region_three(s);
+  const Item* by = s.one_of({"periastron", "angular_momentum", "excess"});
+  if (!by)
+    s.require("periastron", " (units of M); or give angular_momentum (units of M), or excess");
+  const auto orbit = by ? read_escape(s, *by) : std::nullopt;
+  return orbit ? timed(s, stage, *orbit, {}, {mirrored}) : std::nullopt;
+}
+
+std::optional<TimedTrajectory> read_hyperbolic(const Item& item, const Stage& stage, Lookup&) {
+  const Section s = orbit_section(item, "hyperbolic");
+  const bool mirrored = is_in_region_three(s);
+  const Item* by = s.one_of({"periastron", "impact_parameter"});
+  if (!by) by = s.find("excess");
+  if (!by) s.require("periastron", " (units of M); or give impact_parameter (units of M)");
+  const auto orbit = by ? read_scattering(s, *by) : std::nullopt;
+  return orbit ? timed(s, stage, *orbit, {}, {mirrored}) : std::nullopt;
+}
+
+std::optional<TimedTrajectory> read_bound(const Item& item, const Stage& stage, Lookup&) {
+  const Section s = orbit_section(item, "bound");
+  // An orbit is given by its turning points or by its shape, and a key of one form excludes each of
+  // the other.
+  for (const std::string_view shape : {"semilatus_rectum", "eccentricity", "excess"})
+    for (const std::string_view turn : {"periastron", "apoastron"}) s.one_of({turn, shape});
+  s.one_of({"semilatus_rectum", "excess"});
+  const bool mirrored = is_in_region_three(s);
+  const auto orbit = read_ellipse(s);
+  if (!orbit) return std::nullopt;
+  // By default the orbit begins at the apoastron before the periastron of tau = 0.  Its proper time
+  // is half a radial period before that, by the symmetry of the orbit.
+  const double apoastron = -orbit->radial_period() / 2;
+  return timed(s, stage, *orbit, {apoastron, Leg::kInward, apoastron, {}, {}}, {mirrored});
+}
+
+std::optional<TimedTrajectory> read_curved_infall(const Item& item, const Stage& stage, Lookup&) {
+  const Section s = orbit_section(item, "infall");
+  s.one_of({"rest_r", "v_inf"});
+  s.one_of({"rest_r", "impact_parameter"});
+  const bool mirrored = is_in_region_three(s);
+  const bool dropped = s.find("rest_r") != nullptr;
+  const auto orbit = dropped ? read_dropped(s) : read_captured(s);
+  if (!orbit) return std::nullopt;
+  Defaults start;
+  // A fall from rest begins where it rests, at tau = 0, and from_r is sought from there on.
+  if (dropped) start.tau = start.after = 0;
+  start.to_r = kFallEnd;
+  return timed(s, stage, *orbit, start, {mirrored});
+}
+
+std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage, Lookup& lookup) {
+  const Section s(item, {"trajectory", "thrown", "speed", "against", "end", "rates", "pace"});
+  const auto frame = read_frame(s, stage, "from_r");
+  if (!frame) return std::nullopt;
+  if (is_outgoing(frame->tetrad)) {
+    s.find("against")->fail(
+        "of a throw must be static, free_fall or constant_t; what comes out of region IV is of "
+        "type kruskal");
+    return std::nullopt;
+  }
+  const auto own = read_own_celerity(s, stage, *frame, lookup);
+  if (!own) return std::nullopt;
+  // A throw against the static observer is given as it is.  A throw against another one, whose
+  // celerity against the rain is known, is brought to the rain.
+  const bool against_static = frame->region != Region::kII && frame->celerity.length2() > 0;
+  const V3d celerity = against_static ? *own : celerity_against(frame->celerity, *own);
+  // The plane of the orbit is that of R and the celerity, so only the length of the part across R
+  // shapes the orbit.  Its direction turns the plane (placement_of).
+  const double across = std::hypot(celerity.y, celerity.z);
+  const auto orbit = made(s, *s.find("from_r"), [&] {
+    return against_static ? thrown_outside(frame->r, celerity.x, across)
+                          : thrown_from_rain(frame->r, celerity.x, across);
+  });
+  if (!orbit) return std::nullopt;
+  const auto timing = read_end(s, stage, *orbit, 0);
+  if (!timing) return std::nullopt;
+  return TimedTrajectory{*orbit, *timing, placement_of(celerity, is_mirrored(frame->tetrad))};
+}
+
+// An energy that is left out is 1, with which it comes to rest at infinity.
+std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage, Lookup&) {
+  const Section s = orbit_section(item, "kruskal");
+  // By t -> -t what comes out into region I comes out into III.
+  const bool mirrored = is_in_region_three(s);
+  const auto energy = s.given("energy");
+  const double momentum = s.number("angular_momentum");
+  if (s.find("energy") && !energy) return std::nullopt;
+  // The factory refuses energies between 0 and 1e-6 (kruskal_crossing.h).
+  const Item* blamed = s.find("energy") ? s.find("energy") : &item;
+  const auto orbit =
+      made(s, *blamed, [&] { return kruskal_crossing(energy.value_or(1), momentum); });
+  if (!orbit) return std::nullopt;
+  // By default the crossing begins just outside the past singularity.  It ends as near to the
+  // future one, if it falls into that.
+  Defaults start;
+  start.leg = Leg::kOutward;
+  start.tau = orbit->time_at(kFallEnd, Leg::kOutward);
+  if (std::isfinite(orbit->death())) start.to_r = kFallEnd;
+  return timed(s, stage, *orbit, start, {mirrored});
+}
+
+}  // namespace domefall

@@ -1,0 +1,237 @@
+// The sections of a show that say how its frames look and which files are made of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "pipeline/base/utf8.h"
+#include "pipeline/show/assets.h"
+#include "pipeline/show/file/sections.h"
+#include "pipeline/show/frame_state.h"
+
+namespace domefall {
+namespace {
+
+// ---- stars ----
+
+// The laws have defaults of their own for these.  The law of the size is the paper's, whose stars
+// are white in their middle and of true colour at their edge.
+constexpr double kPaperWhiteCore = 10, kPaperSaturation = 1;
+
+// Reads the point-spread law.  Keys that only the other law has are reported.
+PointSpreadLaw read_point_spread(const Section& s) {
+  constexpr std::string_view kKeysOfSize[] = {"growth", "reference_magnitude", "max_sigma_deg"};
+  constexpr std::string_view kKeysOfPsf[] = {"halo", "halo_sigma_deg"};
+  // Without `law`, a key that only the law of the size has chooses that law.
+  const bool sized =
+      std::ranges::any_of(kKeysOfSize, [&](std::string_view key) { return s.find(key); });
+  const bool psf = !s.given_word("law", {true, false}).value_or(sized);
+  for (const std::string_view key : psf ? std::span(kKeysOfSize, 3) : std::span(kKeysOfPsf, 2))
+    if (const Item* item = s.find(key))
+      item->fail(psf ? "belongs to stars.law: size, but the law is psf"
+                     : "belongs to stars.law: psf, but the law is size");
+  const double least = s.number("min_sigma_deg");
+  // A show that widens only the faint stars need not give the widest blob as well.
+  const double most = s.find("max_sigma_deg") ? s.number("max_sigma_deg")
+                                              : std::max(s.number("max_sigma_deg"), least);
+  if (!psf && most < least)
+    s.find("max_sigma_deg")
+        ->fail(fmt::format("must be at least min_sigma_deg = {} (degrees), got {}",
+                           short_number(least), as_written(*s.find("max_sigma_deg"))));
+  PointSpreadLaw law;
+  law.min_sigma = radians(least);
+  law.max_sigma = radians(most);
+  law.growth = s.number("growth");
+  law.reference_magnitude = s.number("reference_magnitude");
+  law.white_core = psf ? s.number("white_core") : s.number("white_core", kPaperWhiteCore);
+  law.halo = psf ? s.number("halo") : 0;
+  law.halo_sigma = psf ? s.angle("halo_sigma_deg") : 0;
+  return law;
+}
+
+// ---- effects ----
+
+// Returns the state on or inside a horizon among those that make up a frame, or null if there is
+// none.  A frame has one state, or two in a dissolve.
+const FrameState* within(const FrameState& state) {
+  if (!has_rest(state.observer)) return &state;
+  return state.vanishing ? within(*state.vanishing) : nullptr;
+}
+
+// Returns a frame on or inside a horizon, if there is one.  What falls in stays inside to the end
+// of its segment, and what comes out of the white hole is inside at its start.  So it is enough to
+// test the frames next to the ends of segments and of dissolves.
+std::optional<FrameState> frame_within(const Show& show) {
+  const int last = frame_count(show) - 1;
+  std::vector<double> ends = segment_times(show);
+  for (std::size_t k = 0; k < show.timeline.size(); ++k)
+    ends.push_back(ends[k] + show.timeline[k].dissolve_s);
+  for (const double seconds : ends) {
+    const int end = static_cast<int>(std::lround(seconds * show.frames_per_second));
+    // The nearest frame and its neighbours lie on both sides of the end.
+    for (int frame = std::max(end - 1, 0); frame <= std::min(end + 1, last); ++frame) {
+      const FrameState state = frame_state(show, frame);
+      if (const FrameState* found = within(state)) return *found;
+    }
+  }
+  return std::nullopt;
+}
+
+// ---- output ----
+
+// Reads the quality, which only JPEGs have.
+void read_quality(const Section& s, std::optional<GradedFormat>& graded) {
+  const bool jpeg = graded && graded->kind == GradedKind::kJpeg;
+  const int quality = s.whole("quality");
+  if (jpeg)
+    graded->quality = quality;
+  else if (const Item* item = s.find("quality"))
+    item->fail("is that of a JPEG; say graded: jpeg, or leave it out");
+}
+
+// Reads the format of the scene-linear files, or returns nothing if there are to be none.
+std::optional<ExrFormat> read_linear(const Section& s) {
+  using enum ExrCompression;
+  const auto compression = s.word("compression", {kZip, kZips, kPiz, kNone});
+  const auto pixels = s.word<std::optional<ExrPixels>>(
+      "linear", {ExrPixels::kHalf, ExrPixels::kFloat, std::nullopt});
+  if (pixels) return ExrFormat{*pixels, compression};
+  if (const Item* item = s.find("compression"))
+    item->fail("is that of scene-linear files, of which linear: none makes none; leave it out");
+  return std::nullopt;
+}
+
+// Reads which layers scene-linear files have, in the order of drawing.
+std::vector<Layer> read_layers(const Section& s, bool linear) {
+  const Item* list = s.find("layers");
+  if (!list) return {};
+  if (!linear) list->fail("are in scene-linear files, of which linear: none makes none");
+  std::vector<std::string_view> known;
+  known.reserve(kLayers.size());
+  for (const LayerKind& kind : kLayers) known.push_back(kind.name);
+  std::set<Layer> layers;
+  for (const Item& item : read_list(*list).value_or(std::vector<Item>{})) {
+    const auto index = read_choice(item, known);
+    if (index && !layers.insert(static_cast<Layer>(*index)).second)
+      item.fail("is listed twice: " + std::string(known[*index]));
+  }
+  return {layers.begin(), layers.end()};
+}
+
+// Reads the name that the files of frames begin with, which must name a visible file and no folder.
+std::string read_name(const Section& s) {
+  constexpr std::size_t kLongest = 200;  // bytes; file systems take 255 with number and kind
+  std::string name = s.text("name");
+  // A folder in the name would be another place than the one that --out names.
+  if (name.find('/') != std::string::npos)
+    s.find("name")->fail("is that of a file and may have no '/'; --out names the folder");
+  else if (name.starts_with('.'))
+    s.find("name")->fail("may not begin with a dot, which hides files");
+  else if (name.size() > kLongest)
+    s.find("name")->fail(fmt::format("may have {} bytes, got {}", kLongest, name.size()));
+  return name;
+}
+
+}  // namespace
+
+void read_stars(const Section& show, Show& to) {
+  const Section s(show.find("stars"), {"stars"});
+  to.point_spread = read_point_spread(s);
+  to.star_saturation =
+      to.point_spread.halo > 0 ? s.number("saturation") : s.number("saturation", kPaperSaturation);
+  const double gain = default_star_gain(to.point_spread);
+  for (const SkyRegion region : kExteriorSkies) to.sky[region].star_gain = gain;
+  to.least_star_radius = s.angle("least_radius_deg");
+}
+
+Exposure read_exposure(const Section& show) {
+  const Section s(show.find("exposure"), {"exposure", "shutter"});
+  // A film camera's shutter of 360 degrees is open from one frame to the next.
+  return {s.number("ev"), s.number("shutter_deg") / 360};
+}
+
+Effects read_effects(const Section& show) {
+  const Section s(show.find("effects"), {"effects"});
+  Effects effects;
+  for (const auto& [name, effect] : kEffectSwitches) effects.*effect = s.flag(name);
+  using enum Amplification;
+  effects.amplification = s.word("amplification", {kStars, kNone, kEverything});
+  return effects;
+}
+
+void check_effects(const Item& root, const Show& show) {
+  if (show.effects.lensing) return;
+  const auto found = frame_within(show);
+  if (!found) return;
+  const auto effects = peek(root, "effects");
+  const auto lensing = effects ? peek(*effects, "lensing") : std::nullopt;
+  (lensing ? *lensing : root)
+      .fail(fmt::format("can be false outside the horizon only (r > 2), but frame {}, in "
+                        "timeline[{}], lies at r = {} (units of M)",
+                        found->frame, found->segment + 1, short_number(found->observer.r)));
+}
+
+GradeSettings read_grade(const Section& show, const Lookup& lookup) {
+  const Section s(show.find("grade"), {"grade", "grade.cdl"});
+  GradeSettings grade;
+  grade.config = shipped_asset(kDomeConfig);
+  grade.shipped = true;
+  const std::string config = s.text("config");
+  if (in_lower_case(config).starts_with("ocio://"))
+    s.find("config")->fail(
+        "names a configuration that OpenColorIO 2.2 and later have built in; this build has "
+        "OpenColorIO 2.1, which has none; name a file, got '" +
+        shown(config) + "'");
+  else if (!config.empty())
+    if (const auto file = lookup.file(*s.find("config"), config))
+      grade.config = *file, grade.shipped = false;
+  // Only the configuration knows its displays and views, so these names are checked when it is
+  // loaded.
+  grade.display = s.text("display");
+  grade.view = s.text("view");
+  ChannelValues values;
+  read_cdl(s, values);
+  // Numbers that the show does not give leave the picture as it is.
+  grade.cdl =
+      cdl_from([&](Channel channel, double neutral) { return values[channel].value_or(neutral); });
+  return grade;
+}
+
+DomeSettings read_dome(const Section& show, const Projection& projection) {
+  const Section s(show.find("dome"), {"dome"});
+  using enum DomeSettings::Light;
+  const DomeSettings dome{s.word("light", {kNone, kSimulate, kCompensate}),
+                          s.number("reflectance")};
+  // Every part of the dome lights every other one, so that the sum needs the whole half sphere.
+  if (dome.light != kNone && !is_domemaster(projection))
+    s.find("light")->fail(has_zenith(projection)
+                              ? "is for a whole half sphere, which the projection domemaster shows"
+                              : "is for domes; this projection is flat");
+  return dome;
+}
+
+Output read_output(const Section& show) {
+  const Section s(show.find("output"), {"output"});
+  using enum GradedKind;
+  Output output;
+  output.linear = read_linear(s);
+  output.layers = read_layers(s, output.linear.has_value());
+  output.graded = s.word<std::optional<GradedFormat>>("graded", {{{kPng16}},
+                                                                 {{kPng8}},
+                                                                 {{kJpeg}},
+                                                                 {{kTiff16}},
+                                                                 {{kTiff8}},
+                                                                 {{kPng16}},
+                                                                 {{kTiff16}},
+                                                                 std::nullopt});
+  read_quality(s, output.graded);
+  output.names = {read_name(s), s.whole("start"), s.whole("digits"), s.whole("per_folder", 0)};
+  output.owner = s.text("owner");
+  // Both are missing only where both keys say none, so that `graded` is there to be blamed.
+  if (!output.linear && !output.graded)
+    s.find("graded")->fail("and linear are both none, so that nothing would be made");
+  return output;
+}
+
+}  // namespace domefall

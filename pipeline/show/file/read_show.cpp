@@ -1,0 +1,123 @@
+#include "pipeline/show/file/read_show.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "pipeline/base/errors.h"
+#include "pipeline/show/file/frame_size.h"
+#include "pipeline/show/file/sections.h"
+#include "pipeline/show/file/show_time.h"
+#include "pipeline/show/file/yaml_document.h"
+#include "pipeline/show/observer_track.h"
+#include "trajectories/equatorial.h"
+
+namespace domefall {
+namespace {
+
+// The origin of galactic coordinates (J2000) lies 0.07 degrees from Sagittarius A*.
+constexpr double kGalacticCentreRaDeg = 266.405, kGalacticCentreDecDeg = -28.936;
+// This mass still keeps proper times finite.  Holes as light as this have long evaporated.
+constexpr double kFewestSolarMasses = 1e-20;
+
+// Reads the spacetime.  With a mass that is misspelt or in error, the rest of the show is still
+// checked as one with a hole.
+Spacetime read_spacetime(const Section& s) {
+  if (!s.find("mass_solar") && !s.is_misspelt("mass_solar")) return FlatSpace{};
+  // A mass of 0 is flat space, so the range begins there, and the gap up to the lightest hole is
+  // reported by itself.
+  const auto mass = s.given("mass_solar");
+  if (mass && *mass > 0 && *mass < kFewestSolarMasses)
+    s.find("mass_solar")
+        ->fail(fmt::format("must be 0 (flat space) or at least {} (solar masses), got {}",
+                           short_number(kFewestSolarMasses), as_written(*s.find("mass_solar"))));
+  if (mass.value_or(1) > 0) return Schwarzschild{mass.value_or(1)};
+  return FlatSpace{};
+}
+
+void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
+  const Section s(section.find("black_hole"), {"black_hole"});
+  show.hole_at = sky_direction(kGalacticCentreRaDeg, kGalacticCentreDecDeg);
+  if (const Item* at = s.find("at"))
+    show.hole_at = read_sky_place(*at, lookup).value_or(show.hole_at);
+  show.heading = s.angle("heading_deg");
+  show.spacetime = read_spacetime(s);
+}
+
+void read_sections(const Item& root, Lookup& lookup, Show& show) {
+  const Section section(root, {"show"});
+  if (!root.node.IsMap()) return;
+  show.title = show.file.stem().string();
+  if (section.find("title")) show.title = section.text("title");
+  read_frame_rate(section, show);
+  // The order matters: bodies need the hole, cameras the bodies, and segments all that a show
+  // gives.
+  show.markers = read_markers(section);
+  show.fades = read_fades(section);
+  read_black_hole(section, lookup, show);
+  show.bodies = read_bodies(section, show, lookup);
+  const ShowCamera camera = read_show_camera(section, show.bodies, lookup);
+  show.projection = camera.projection;
+  read_stars(section, show);
+  read_sky(root, section, lookup, show);
+  show.disc = read_disc(section, show);
+  show.exposure = read_exposure(section);
+  show.effects = read_effects(section);
+  show.grade = read_grade(section, lookup);
+  show.timeline = read_timeline(section, show, camera, lookup);
+  if (!show.timeline.empty()) show.titles = read_titles(section, {0, end_of(show)}, show);
+  show.grade.dome = read_dome(section, show.projection);
+  show.output = read_output(section);
+}
+
+// Gives a show the overlays of a list.
+void overlay(Show& show, const std::string& names) {
+  if (names.empty()) return;
+  try {
+    show.overlays = parse_overlays(names);
+  } catch (const InputError& error) {
+    throw InputError("--overlay " + names + ": " + error.what());
+  }
+  const bool flat = std::ranges::all_of(
+      show.overlays, [](OverlayKind kind) { return kind == OverlayKind::kBurnIn; });
+  if (traits_of(show.projection).has_faces && !flat)
+    throw InputError("--overlay " + names +
+                     ": only burn-in can be drawn on a cubemap, whose faces would cut the others; "
+                     "look at them in another projection");
+  show.title += " (overlay " + overlay_names(show.overlays) + ")";
+}
+
+}  // namespace
+
+Show read_show(const std::filesystem::path& file) {
+  const std::string text = read_show_text(file);
+  Problems problems(file.string(), text);
+  const YAML::Node node = parse_yaml(text, problems);
+  if (!node.IsDefined() || node.IsNull())
+    problems.add({}, "the show is empty; it needs a timeline at least");
+  problems.raise();
+
+  Show show;
+  show.file = file;
+  Lookup lookup(file.parent_path());
+  const TextPlace start{node.Mark().line, node.Mark().column};
+  const Item root{node, start, "", &problems};
+  read_sections(root, lookup, show);
+  problems.raise();
+  // From here on the observer is followed along the timeline, which must be free of mistakes.
+  join_segments(show);
+  check_effects(root, show);
+  problems.raise();
+  follow_turns(show);
+  return show;
+}
+
+Show read_show(const std::filesystem::path& file, const std::string& size,
+               const std::string& overlays) {
+  Show show = read_show(file);
+  overlay(show, overlays);
+  show.projection = resized(show.projection, size);
+  return show;
+}
+
+}  // namespace domefall

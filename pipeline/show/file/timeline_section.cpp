@@ -1,0 +1,297 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pipeline/show/file/sections.h"
+#include "pipeline/show/file/show_time.h"
+#include "pipeline/show/file/trajectory_section.h"
+#include "pipeline/show/observer_track.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kTimeRounding = 1e-9;    // of sums of seconds
+constexpr double kLongest = kMostFrames;  // seconds, at one frame a second
+
+// Says whether the camera of a segment, which lasts from `begin` to `end`, ever has an attitude of
+// this kind.
+template <class Kind>
+bool ever_has(const Segment& s, double begin, double end) {
+  if (s.attitudes.empty()) return std::holds_alternative<Kind>(s.camera.attitude);
+  for (std::size_t k = 0; k < s.attitudes.size(); ++k) {
+    const bool last = k + 1 == s.attitudes.size();
+    // An attitude matters from the keyframe before it to the one after it.
+    const bool gone = !last && s.attitudes[k + 1].at_s <= begin;
+    const bool still_to_come = k > 0 && s.attitudes[k - 1].at_s >= end;
+    if (!gone && !still_to_come && std::holds_alternative<Kind>(s.attitudes[k].attitude))
+      return true;
+  }
+  return false;
+}
+
+// A TimelineReader reads segment after segment, since each begins where the one before ends.
+class TimelineReader {
+ public:
+  TimelineReader(const Show& show, ShowCamera camera, std::vector<Keyframe> keyframes,
+                 Lookup& lookup)
+      : show_(show),
+        camera_(std::move(camera)),
+        keyframes_(std::move(keyframes)),
+        lookup_(lookup) {}
+
+  void read(const Item& item) {
+    const Section section(item, {"timeline"});
+    Segment segment;
+    // The dissolve comes first, since a duration that is a marker counts from where the segment
+    // begins.
+    const double dissolve = read_dissolve(section);
+    segment.duration_s = read_duration(section, end_ - dissolve);
+    if (fits_dissolve(section, dissolve, segment)) segment.dissolve_s = dissolve;
+    segment.fades = read_fades(section);
+    check_fades(section, segment.fades, segment.duration_s, "the segment");
+    const double begin = end_ - segment.dissolve_s;
+    read_view(section, begin, segment);
+    read_motion(item, section, begin, segment);
+    end_ = begin + segment.duration_s;
+    segment.titles = read_titles(section, {begin, end_}, show_);
+    joint_ = joint_after(
+        segments_.empty() ? first_joint(show_, segment) : joint_into(joint_, segment), segment);
+    segments_.push_back(std::move(segment));
+  }
+
+  double end() const { return end_; }
+  std::vector<Segment> take() { return std::move(segments_); }
+
+ private:
+  double read_dissolve(const Section& section) const {
+    const Item* item = section.find("dissolve_s");
+    if (!item) return 0;
+    if (!segments_.empty()) return read_time(*item, section.range("dissolve_s")).value_or(0);
+    item->fail("needs a segment before this one, out of which the picture fades in");
+    return 0;
+  }
+
+  double read_duration(const Section& section, double begin) const {
+    const Item* item = section.require("duration_s", " (seconds)");
+    const auto seconds =
+        item ? read_time(*item, section.range("duration_s"), show_.markers, begin) : std::nullopt;
+    return seconds.value_or(1);
+  }
+
+  // Says whether a dissolve is short enough.  At most two segments are seen at a time, so that a
+  // dissolve begins after that of the segment before has ended.
+  bool fits_dissolve(const Section& section, double dissolve, const Segment& segment) const {
+    if (dissolve == 0) return true;
+    const Segment& before = segments_.back();
+    const double most = std::min(segment.duration_s, before.duration_s - before.dissolve_s);
+    if (dissolve <= most) return true;
+    const Item& item = *section.find("dissolve_s");
+    item.fail(
+        fmt::format("must be at most {} (seconds), which is how long this segment and what is left "
+                    "of the one before it last, got {}",
+                    short_number(most), as_written(item)));
+    return false;
+  }
+
+  // Returns the values of the show, which hold wherever neither a segment nor a keyframe says
+  // otherwise.  A projection whose field of view is fixed has 0 for it.
+  PerChannel<double> constants(const Camera& camera) const {
+    PerChannel<double> values;
+    values[Channel::kRoll] = camera.roll;
+    values[Channel::kElevation] = camera.elevation;
+    values[Channel::kDomeTilt] = camera.dome_tilt;
+    values[Channel::kFov] = field_of_view(show_.projection).value_or(0);
+    values[Channel::kEv] = show_.exposure.ev;
+    const Cdl& cdl = show_.grade.cdl;
+    for (std::size_t k = 0; k < 3; ++k) {
+      values[colour_channel(Channel::kSlopeR, k)] = cdl.slope[k];
+      values[colour_channel(Channel::kOffsetR, k)] = cdl.offset[k];
+      values[colour_channel(Channel::kPowerR, k)] = cdl.power[k];
+    }
+    values[Channel::kSaturation] = cdl.saturation;
+    for (const SkyRegion region : kEverySky) {
+      const RegionSky& sky = show_.sky[region];
+      values[gain_channel(region)] = sky.background_gain;
+      values[star_gain_channel(region)] = sky.star_gain;
+      values[max_magnitude_channel(region)] = sky.stars.value_or(StarField{}).max_magnitude;
+    }
+    return values;
+  }
+
+  // Reads camera, exposure, CDL and skies.  Each value is taken from the first of these that gives
+  // it: the segment's keyframes, the segment, the show's keyframes, the show.
+  void read_view(const Section& section, double begin, Segment& segment) {
+    CameraKeys own;
+    if (const Item* camera = section.find("camera")) own = read_camera(*camera, camera_, lookup_);
+    ChannelValues values = read_values(section, [&](SkyRegion region, const Section& keys) {
+      read_segment_background(keys, region, lookup_, show_.sky[region],
+                              segment.backgrounds[region]);
+    });
+    lay_over(values, own.values);
+    std::vector<Keyframe> keyframes;
+    if (const Item* list = section.find("keyframes"))
+      keyframes =
+          read_keyframes(*list, {begin, segment.duration_s}, show_.markers, camera_, lookup_);
+
+    segment.camera = camera_from(laid_over(camera_.keys, own), show_.projection);
+    const PerChannel<double> of_show = constants(camera_from(camera_.keys, show_.projection)),
+                             of_segment = constants(segment.camera);
+    for (const Channel channel : kEveryChannel) {
+      std::optional<Curve>& curve = segment.curves[channel];
+      // A value of the segment's own is a constant curve, which hides the show's keyframes.
+      curve = values[channel] ? Curve{{{begin, *values[channel]}}}
+                              : curve_through(keyframes_, channel, 0, of_show[channel]);
+      const double base = value_at(segment, channel, begin, of_segment[channel]);
+      if (auto through = curve_through(keyframes, channel, begin, base)) curve = through;
+    }
+    // A segment whose camera looks somewhere itself is not turned by the show's keyframes.
+    if (!own.attitude)
+      segment.attitudes =
+          attitudes_through(keyframes_, 0, camera_.keys.attitude.value_or(LookAtHole{}));
+    if (auto through = attitudes_through(keyframes, begin, attitude_at(segment, begin));
+        !through.empty())
+      segment.attitudes = std::move(through);
+  }
+
+  // Returns the attitude of the last keyframe before an instant, from which the segment's own
+  // keyframes turn away.
+  static Attitude attitude_at(const Segment& segment, double t) {
+    Attitude attitude = segment.camera.attitude;
+    for (const AttitudeKey& key : segment.attitudes)
+      if (key.at_s <= t || &key == segment.attitudes.data()) attitude = key.attitude;
+    return attitude;
+  }
+
+  void read_motion(const Item& item, const Section& section, double begin, Segment& segment) {
+    const Item* trajectory = section.find("trajectory");
+    std::optional<TimedTrajectory> motion;
+    const std::size_t reported = item.problems->count();
+    Stage stage{show_.spacetime, axes_before(), segment.duration_s,
+                nullptr,         &show_.bodies, segments_.empty() ? 0 : rain_time(joint_)};
+    if (!segments_.empty()) stage.before = &segments_.back();
+    if (!trajectory && show_.spacetime.is_flat()) {
+      motion = TimedTrajectory{StaticObserver{}, {0, segment.duration_s}, {}};
+    } else {
+      section.require("trajectory", ", e.g. {type: infall, from_r: 30}");
+      if (trajectory) motion = read_trajectory(*trajectory, stage, lookup_);
+    }
+    if (!motion) {
+      // The readers have reported what is wrong.  In any case a segment without motion must not
+      // pass.
+      if (trajectory && item.problems->count() == reported)
+        trajectory->fail("leads nowhere that a show can follow");
+      return;
+    }
+    const auto type = trajectory ? peek(*trajectory, "type") : std::nullopt;
+    if (type) segment.type = type->node.Scalar();
+    if (segment.type == "continue") segment.type = segments_.back().type;
+    segment.trajectory = motion->trajectory;
+    segment.timing = motion->timing;
+    segment.placement = motion->placement;
+    check_targets(item, segment, begin);
+  }
+
+  M33d axes_before() const {
+    return segments_.empty() ? place_tetrad(show_.hole_at, show_.heading, 0) : joint_.axes;
+  }
+
+  // Reports a camera whose target does not exist in the segment.
+  void check_targets(const Item& item, const Segment& segment, double begin) const {
+    const double end = begin + segment.duration_s;
+    const auto region_at = [&segment](const ProperTime& tau) {
+      return point_at(segment.trajectory, tau).region;
+    };
+    // Nothing returns to region IV, so an observer who ends there has been there throughout.
+    const bool sees_no_sky = region_at(segment.timing.tau_begin) == Region::kIV &&
+                             region_at(segment.timing.tau_end) == Region::kIV;
+    if (sees_no_sky && ever_has<LookAtSky>(segment, begin, end))
+      item.fail(
+          "has a camera that looks at a place on the sky, but from region IV no sky is seen; give "
+          "the segment another camera.look_at");
+    if (is_at_rest(segment.trajectory, show_.spacetime) &&
+        ever_has<LookAlongMotion>(segment, begin, end))
+      item.fail(
+          "has a camera that looks along the motion, but its observer does not move; give the "
+          "segment another camera.look_at");
+  }
+
+  const Show& show_;
+  ShowCamera camera_;
+  std::vector<Keyframe> keyframes_;
+  Lookup& lookup_;
+  std::vector<Segment> segments_;  // that have been read
+  Joint joint_;                    // what the next one takes over
+  double end_ = 0;
+};
+
+void fail_behind_the_end(const Item& item, double end) {
+  item.fail(fmt::format("lies behind the end of the show at {} s, got {}", short_number(end),
+                        as_written(item)));
+}
+
+void check_keyframes(const Item& list, const std::vector<Keyframe>& keyframes, double end) {
+  for (std::size_t k = 0; k < keyframes.size(); ++k)
+    if (keyframes[k].at_s > end) fail_behind_the_end(*peek((*read_list(list))[k], "at_s"), end);
+}
+
+void check_markers(const Section& section, const std::vector<Marker>& markers, double end) {
+  for (const Marker& marker : markers)
+    if (marker.at_s > end) fail_behind_the_end(*peek(*section.find("markers"), marker.name), end);
+}
+
+}  // namespace
+
+Fades read_fades(const Section& section) {
+  const auto seconds = [&section](std::string_view key) {
+    const Item* item = section.find(key);
+    return item ? read_time(*item, section.range(key)).value_or(0) : 0;
+  };
+  return {seconds("fade_in_s"), seconds("fade_out_s")};
+}
+
+// The fades may fill the whole duration, and their sum may then exceed it by rounding.
+void check_fades(const Section& section, const Fades& fades, double duration, const char* of) {
+  if (!(fades.in_s + fades.out_s > duration * (1 + kTimeRounding))) return;
+  const Item* last = section.find(fades.out_s > 0 ? "fade_out_s" : "fade_in_s");
+  last->fail(fmt::format("makes {} s of fades, but {} lasts {} s",
+                         short_number(fades.in_s + fades.out_s), of, short_number(duration)));
+}
+
+std::vector<Segment> read_timeline(const Section& section, const Show& show,
+                                   const ShowCamera& camera, Lookup& lookup) {
+  const Item* list = section.require("timeline", ": a list of segments");
+  const auto items = list ? read_list(*list) : std::nullopt;
+  if (!items) return {};
+  ShowCamera named = camera;
+  const Item* keyframe_list = section.find("keyframes");
+  std::vector<Keyframe> keyframes;
+  if (keyframe_list)
+    keyframes = read_keyframes(*keyframe_list, {0, kLongest}, show.markers, named, lookup);
+  const std::size_t reported = list->problems->count();
+  TimelineReader reader(show, named, keyframes, lookup);
+  bool fitted = true;
+  for (const Item& item : *items) {
+    reader.read(item);
+    const double frames = reader.end() * show.frames_per_second;
+    if (fitted && frames > kMostFrames)
+      item.fail(fmt::format("brings the show to {} frames; at most {} are possible",
+                            short_number(frames), kMostFrames));
+    fitted = frames <= kMostFrames;
+  }
+  // frame_count() would round such a show to no frame at all.
+  if (reader.end() * show.frames_per_second < 0.5)
+    list->fail(fmt::format(
+        "ends after {} s, before half a frame is over; at {} frames per second a frame lasts {} s",
+        short_number(reader.end()), short_number(show.frames_per_second),
+        short_number(1 / show.frames_per_second)));
+  if (keyframe_list) check_keyframes(*keyframe_list, keyframes, reader.end());
+  if (list->problems->count() == reported) {
+    check_markers(section, show.markers, reader.end());
+    check_fades(section, show.fades, reader.end(), "the show");
+  }
+  return reader.take();
+}
+
+}  // namespace domefall

@@ -1,0 +1,249 @@
+#include "pipeline/show/file/trajectory_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace domefall {
+namespace {
+
+std::optional<TimedTrajectory> paced(const Section& s, const Trajectory& trajectory, Timing timing,
+                                     bool mirrored) {
+  if (!read_pace(s, trajectory, timing)) return std::nullopt;
+  return TimedTrajectory{trajectory, timing, {mirrored}};
+}
+
+Timing timing_of(const Rate& rate) { return {0, rate.span, Pace::kSteady, rate.begin, rate.end}; }
+
+// Reads an observer at rest, near a hole at a given r and in flat space without one.
+std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "region", "static", "rates"});
+  Timing timing{0, proper_time_in(stage, stage.duration_s)};
+  if (stage.spacetime.is_flat()) {
+    for (const char* key : {"r", "rate_m_per_s", "time_lapse"})
+      if (const Item* given = s.find(key))
+        given->fail("needs a black hole; in flat space leave it out");
+    return TimedTrajectory{StaticObserver{}, timing, {}};
+  }
+  const auto r =
+      s.required("r", s.range("r").because("nothing holds still at or inside the horizon"));
+  const bool mirrored = is_in_region_three(s);
+  // The observer's clock runs in real time, unless a show in which other things move wants another
+  // rate.
+  if (find_end(s, {})) {
+    const auto rate = read_rate(s, stage);
+    if (!rate) return std::nullopt;
+    timing = timing_of(*rate);
+  }
+  if (!r) return std::nullopt;
+  return TimedTrajectory{StaticObserver{*r}, timing, {mirrored}};
+}
+
+// Reads a circular orbit, whose end is given as a number of orbits or follows from a rate.
+std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "region", "circular", "rates", "pace"});
+  find_end(s, {"orbits"});
+  const auto r = s.required(
+      "r",
+      s.range("r").because("at the light circle an orbit needs the speed of light, below it more"));
+  const bool mirrored = is_in_region_three(s);
+  const auto rate = read_rate(s, stage, r ? std::optional(period({*r})) : std::nullopt);
+  if (!r || !rate) return std::nullopt;
+  const double orbits = rate->span / period({*r});
+  if (orbits > kMostOrbits * (1 + 1e-9)) {  // the given number comes back rounded
+    const Item* pace = s.one_of({"rate_m_per_s", "time_lapse"});
+    (pace ? *pace : item)
+        .fail(fmt::format("makes {} orbits in the segment; at most {} are possible",
+                          short_number(orbits), short_number(kMostOrbits)));
+    return std::nullopt;
+  }
+  Timing timing = timing_of(*rate);
+  // A number of orbits fixes the end, so that two rates only shape the way there.
+  if (s.find("orbits") && !read_end_rates(s, stage, timing)) return std::nullopt;
+  return paced(s, CircularOrbit{*r}, timing, mirrored);
+}
+
+std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const RadialInfall& fall) {
+  const auto rate = read_rate(s, stage);
+  if (!rate || rate->span <= proper_time_to(fall, kNearest)) return rate;
+  s.one_of({"rate_m_per_s", "time_lapse"})
+      ->fail(fmt::format("lets {} M of proper time pass in the segment, but from r = {} the "
+                         "singularity is {} M away; slow it down, shorten duration_s or give to_r",
+                         short_number(rate->span), short_number(fall.from_r),
+                         short_number(lifetime(fall))));
+  return std::nullopt;
+}
+
+// Reads a radial fall from rest at infinity.  The keys of other falls, which read_infall() sends
+// elsewhere, are known here so that a misspelling of one gets the right hint.
+std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "region", "infall", "begin", "end", "rates", "pace"});
+  const Item* given = find_end(s, {"to_r"});
+  const Item* to = s.find("to_r");
+  const auto to_r = s.given("to_r");
+  const auto from_r = s.required("from_r");
+  if (!from_r || (to && !to_r)) return std::nullopt;
+  // A radial fall from rest at infinity has r^(3/2) linear in tau, so that both ends are found in
+  // closed form.
+  const RadialInfall fall{*from_r};
+  const bool mirrored = is_in_region_three(s);
+  if (given && !to) {
+    const Item* pace = s.find("pace");
+    if (pace && is_word(*pace, "slowing")) {
+      pace->fail("of 'slowing' needs to_r, not a rate");
+      return std::nullopt;
+    }
+    if (!in_range(*s.find("from_r"), *from_r, kUnitsOfM.at_least(kNearest))) return std::nullopt;
+    const auto rate = read_fall_time(s, stage, fall);
+    return rate ? paced(s, fall, timing_of(*rate), mirrored) : std::nullopt;
+  }
+  // The end that does not lie below the beginning may be the default, and then from_r is blamed.
+  const double end = s.number("to_r");
+  if (end >= *from_r) {
+    (to ? to : s.find("from_r"))
+        ->fail(to ? fmt::format("must stay below from_r = {} (units of M), got {}: a free fall "
+                                "only goes inward",
+                                short_number(*from_r), as_written(*to))
+                  : fmt::format("must exceed {} (units of M), the default of to_r, got {}: a free "
+                                "fall only goes inward",
+                                short_number(end), as_written(*s.find("from_r"))));
+    return std::nullopt;
+  }
+  Timing timing{0, proper_time_to(fall, end)};
+  if (!read_end_rates(s, stage, timing)) return std::nullopt;
+  return paced(s, fall, timing, mirrored);
+}
+
+std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stage, Lookup& lookup) {
+  const Section s(item, {"trajectory", "velocity", "against", "speed", "pace"});
+  GivenVelocity observer;
+  if (!stage.spacetime.is_flat()) {
+    const auto frame = read_frame(s, stage);
+    if (!frame) return std::nullopt;
+    observer = *frame;
+  } else {
+    for (const char* key : {"r", "region"})
+      if (const Item* given = s.find(key))
+        given->fail("needs a black hole; in flat space leave it out");
+  }
+  const auto trajectory = read_velocity_trajectory(s, stage, observer, lookup);
+  if (!trajectory) return std::nullopt;
+  return paced(s, *trajectory, {0, proper_time_in(stage, stage.duration_s)}, false);
+}
+
+std::optional<TimedTrajectory> read_continue(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "end", "rates", "pace"});
+  if (!stage.before) {
+    item.fail("goes on with the trajectory of the segment before, but this is the first segment");
+    return std::nullopt;
+  }
+  const auto timing = read_end(s, stage, stage.before->trajectory, stage.before->timing.tau_end);
+  if (!timing) return std::nullopt;
+  Placement placement = stage.before->placement;
+  placement.turn = 0;
+  placement.beginning.reset();
+  return TimedTrajectory{stage.before->trajectory, *timing, placement};
+}
+
+// Reads an observer who moves as a body of the show does.
+std::optional<TimedTrajectory> read_with_body(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "body", "begin", "end", "rates", "pace"});
+  const Item* name = s.require("body", ": the name of the body with which the observer moves");
+  std::map<std::string, const Body*, std::less<>> bodies;
+  for (const Body& body : *stage.bodies) bodies.emplace(body.name, &body);
+  const auto* found = name ? find_named(*name, bodies, "names no body of the show") : nullptr;
+  const Body* body = found ? *found : nullptr;
+  const double behind = s.number("behind_m");
+  if (!body) return std::nullopt;
+  Defaults defaults;
+  // Light that falls straight in keeps its v, and in that light the observer goes on where the
+  // segment before ended.  Whoever follows `behind` later is at each v where the body was at v -
+  // behind.
+  if (const auto tau = time_of_null(stage.spacetime, *body, stage.null_time - behind)) {
+    // time_of_null() counts from Body::start, and the timing from the trajectory's own zero.
+    defaults.tau = body->start + *tau;
+  } else if (!s.find("from_r") && !s.find("from_tau_m")) {
+    s.find("body")->fail(
+        fmt::format("is not there at v = {} M, when the segment begins; give from_tau_m",
+                    short_number(stage.null_time - behind)));
+    return std::nullopt;
+  }
+  const auto timing = read_timing(s, stage, body->trajectory, defaults);
+  if (!timing) return std::nullopt;
+  // `beginning` gives the plane, which is the body's own, so that nothing is mirrored or turned.
+  Placement placement{false, body->backward, 0, {}};
+  placement.beginning =
+      beginning_beside(stage.spacetime, *body, double(timing->tau_begin - body->start), behind);
+  return TimedTrajectory{body->trajectory, *timing, placement};
+}
+
+bool is_curved(const Item& item) {
+  static constexpr std::array<std::string_view, 8> kKeys{
+      "rest_r",   "angular_momentum", "v_inf",  "impact_parameter",
+      "from_leg", "from_tau_m",       "to_leg", "to_tau_m"};
+  return std::any_of(kKeys.begin(), kKeys.end(),
+                     [&item](std::string_view key) { return peek(item, key).has_value(); });
+}
+
+// Reads a fall, by the closed form of RadialInfall where its keys allow that.
+std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage, Lookup& lookup) {
+  return is_curved(item) ? read_curved_infall(item, stage, lookup)
+                         : read_radial_infall(item, stage, lookup);
+}
+
+// A Type holds the word for a kind of trajectory, whether flat space has that kind, and its reader.
+struct Type {
+  std::string_view name;
+  bool in_flat_space;
+  std::optional<TimedTrajectory> (*read)(const Item& item, const Stage& stage, Lookup& lookup);
+};
+
+// These are the types of trajectory that a show can name.  Those that a body can follow come first.
+constexpr std::array kTypes{
+    Type{"static", true, read_static},        Type{"circular", false, read_circular},
+    Type{"parabolic", false, read_parabolic}, Type{"hyperbolic", false, read_hyperbolic},
+    Type{"bound", false, read_bound},         Type{"infall", false, read_infall},
+    Type{"thrown", false, read_thrown},       Type{"kruskal", false, read_kruskal},
+    Type{"path", false, read_path},           Type{"velocity", true, read_velocity},
+    Type{"body", false, read_with_body},      Type{"continue", true, read_continue}};
+
+constexpr std::array<std::string_view, kTypes.size()> kTypeNames = [] {
+  std::array<std::string_view, kTypes.size()> names;
+  for (std::size_t k = 0; k < names.size(); ++k) names[k] = kTypes[k].name;
+  return names;
+}();
+constexpr std::size_t kTypesOfBodies = 7;
+static_assert(kTypeNames[kTypesOfBodies - 1] == "thrown" &&
+              kTypeNames[kTypesOfBodies] == "kruskal");
+
+}  // namespace
+
+std::span<const std::string_view> trajectories_of_bodies() {
+  return std::span(kTypeNames).first(kTypesOfBodies);
+}
+
+bool is_in_region_three(const Section& s) { return s.word("region", {false, true}); }
+
+std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& stage,
+                                               Lookup& lookup) {
+  const auto type = peek(item, "type");
+  if (!type) {
+    if (item.node.IsMap())
+      item.problems->add(item.at, item.path + ".type is missing: " + listed(kTypeNames));
+    else
+      item.fail("must be a map with a type, e.g. {type: infall, from_r: 30}, got " + kind_of(item));
+    return std::nullopt;
+  }
+  const auto chosen = read_choice(*type, kTypeNames);
+  if (!chosen) return std::nullopt;
+  const Type& kind = kTypes[*chosen];
+  if (stage.spacetime.is_flat() && !kind.in_flat_space) {
+    type->fail(
+        fmt::format("'{}' needs a black hole: give the show black_hole.mass_solar", kind.name));
+    return std::nullopt;
+  }
+  return kind.read(item, stage, lookup);
+}
+
+}  // namespace domefall

@@ -1,0 +1,69 @@
+// A DiscPattern says what a pattern makes of a disc's light.  It is a factor on the radiance, by
+// place and time of emission.  On every ring r = const the mean of the factor is 1 at each time,
+// exactly, for filaments and the spot.  Rings have a mean of 1 over their spacing.  The factor is a
+// smooth function of place and time, the same on every machine, and never below 0.  What is finer
+// than a footprint fades into the mean, so that a picture neither aliases nor shimmers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pipeline/sources/disc/disc.h"
+
+namespace domefall {
+
+// A PatternPlace is a place on the disc as a pixel sees it.
+struct PatternPlace {
+  double r;        // M, >= 2
+  double azimuth;  // radians from the node, in the sense of the orbits
+  double time;     // t at emission, M; |t| < 1e15
+  // A pixel covers these spans from edge to edge.  One is of r (M).  The other is of the azimuth
+  // among the gas (radians), which also changes with the time of emission.  Both are >= 0.
+  double r_width = 0, azimuth_width = 0;
+};
+
+// Turbulence makes the filaments in a disc's gas.  It is a noise whose grains turn with the gas.
+// The orbits further in are the faster ones and so draw the grains out into spirals.  Grains are
+// replaced as they age.
+//
+// Grains of three sizes lie in rows of equal width in ln r, in places that a hash of row and
+// generation chooses.  Rows, and the generations of a row, are joined by quadratic B-splines, which
+// add up to 1.  The light of a row's grains has a fixed mean around the ring, whatever the shear
+// and the footprint do, because a footprint makes a grain wider and keeps its light.
+class Turbulence {
+ public:
+  explicit Turbulence(const TurbulencePattern& pattern);
+
+  // Finds the factor at each place, for r <= 1e6.
+  void factors(std::span<const PatternPlace> places, std::span<float> out) const;
+
+  static constexpr int kSizes = 3;
+
+ private:
+  TurbulencePattern pattern_;
+  // This is the time (M) from one generation of a row to the next, for the rows of each size from
+  // r = 1 on, and its inverse.
+  std::array<std::vector<double>, kSizes> spans_, rates_;
+};
+
+// Returns the angular velocity of a disc's gas per M of t, for r >= 2 (M).  It is r^(-3/2) on
+// circular orbits, and that of the plunge inside the last stable one.
+double angular_velocity(double r);
+// The law of the plunge is (1 - 2/r) L'/E'/r^2 with this L'/E'.
+inline constexpr double kPlungeTurning = 3.674234614174767;  // sqrt 13.5
+
+class DiscPattern {
+ public:
+  explicit DiscPattern(const PatternKind& kind);
+
+  // Finds the factor at each place.
+  void factors(std::span<const PatternPlace> places, std::span<float> out) const;
+
+ private:
+  PatternKind kind_;
+  std::optional<Turbulence> turbulence_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,84 @@
+// The regions of the maximally extended spacetime, the tetrads that are regular on their horizons,
+// and the skies that light comes from: those of the two asymptotically flat regions, and the past
+// singularity of region IV, which counts as a sky wherever a show lights it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace domefall {
+
+enum class Region { kI, kII, kIII, kIV };
+
+inline const char* region_name(Region region) {
+  constexpr const char* kNames[] = {"I", "II", "III", "IV"};
+  return kNames[static_cast<int>(region)];
+}
+
+// A Tetrad is a frame that velocities and directions are given against.  It is radial free fall,
+// either inward from rest at infinity ("rain", T_I of [Riazuelo] eq. tetrad_start, regular in I and
+// II) or outward to rest at infinity (T_I', sec. on region IV, regular in IV and I).  The other two
+// are the mirror images of these under t -> -t, which fall from region III and to it.  R points to
+// the infinity that the frame belongs to.  Each is singular on the horizon that it does not cross,
+// so a state near r = 2M names the one that does.
+enum class Tetrad { kRain, kOutgoing, kRainOfThree, kOutgoingToThree };
+
+inline const char* tetrad_name(Tetrad t) {
+  constexpr const char* kNames[] = {"rain", "outgoing", "rain_of_III", "outgoing_to_III"};
+  return kNames[static_cast<int>(t)];
+}
+
+constexpr bool is_outgoing(Tetrad t) {
+  return t == Tetrad::kOutgoing || t == Tetrad::kOutgoingToThree;
+}
+// Says whether a tetrad is of region III.  What is said of sky I in the other two holds of sky III,
+// and the reverse.
+constexpr bool is_mirrored(Tetrad t) {
+  return t == Tetrad::kRainOfThree || t == Tetrad::kOutgoingToThree;
+}
+// Says whether a region has a tetrad.  Rain is found outside and beyond the future horizon, the
+// outgoing frame outside and before the past one.
+constexpr bool has_tetrad(Region region, Tetrad t) {
+  if (region == Region::kI || region == Region::kIII)
+    return is_mirrored(t) == (region == Region::kIII);
+  return is_outgoing(t) == (region == Region::kIV);
+}
+
+// These return what the reflection t -> -t leads to.
+constexpr Region mirror_of(Region region) {
+  if (region == Region::kI) return Region::kIII;
+  return region == Region::kIII ? Region::kI : region;
+}
+constexpr Tetrad mirror_of(Tetrad t) {
+  if (is_outgoing(t)) return is_mirrored(t) ? Tetrad::kOutgoing : Tetrad::kOutgoingToThree;
+  return is_mirrored(t) ? Tetrad::kRain : Tetrad::kRainOfThree;
+}
+
+// A SkyRegion is the region in which light started that reaches the observer.
+enum class SkyRegion : char { kI, kIII, kIV };
+inline constexpr std::array kEverySky{SkyRegion::kI, SkyRegion::kIII, SkyRegion::kIV};
+// These are the skies of the two exteriors.  Only they have stars.
+inline constexpr std::array kExteriorSkies{SkyRegion::kI, SkyRegion::kIII};
+
+inline const char* name_of(SkyRegion sky) {
+  constexpr std::array kNames{"I", "III", "IV"};
+  return kNames[static_cast<std::size_t>(sky)];
+}
+
+// Returns the sky of the region, I or III, that a tetrad belongs to.
+constexpr SkyRegion own_sky(Tetrad t) { return is_mirrored(t) ? SkyRegion::kIII : SkyRegion::kI; }
+
+// A PerSky has one value for each sky.
+template <class T>
+struct PerSky {
+  std::array<T, kEverySky.size()> values{};  // in the order of kEverySky
+
+  constexpr T& operator[](SkyRegion sky) { return values[static_cast<std::size_t>(sky)]; }
+  constexpr const T& operator[](SkyRegion sky) const {
+    return values[static_cast<std::size_t>(sky)];
+  }
+  constexpr auto begin() const { return values.begin(); }
+  constexpr auto end() const { return values.end(); }
+};
+
+}  // namespace domefall

@@ -1,0 +1,104 @@
+// The spacetime of a show: flat, or one of the kinds in the variant.  Who is not tied to one kind
+// asks it here.  A new kind is a class with the same answers and a place in the variant.  What else
+// depends on the kind, such as its lens, visits the variant and does not compile without it.
+//
+// Radii are in units of M (c = G = 1).  In flat space r is kFlatSpace, which exceeds every place
+// that marks a hole, and proper time is in seconds.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "pipeline/spacetime/radius.h"
+#include "pipeline/spacetime/regions.h"
+#include "pipeline/spacetime/schwarzschild.h"
+
+namespace domefall {
+
+struct FlatSpace {
+  static std::optional<double> solar_masses() { return std::nullopt; }
+  static double seconds_per_m() { return 1; }
+  static std::vector<double> parameters() { return {}; }
+  static double horizon() { return 0; }
+  static double light_circle() { return 0; }
+  static double last_stable_orbit() { return 0; }
+  static double free_fall_speed(double) { return 0; }
+  static double lapse_squared(double) { return 1; }
+  static double resting_celerity(double) { return 0; }
+  static double tortoise(double r) { return r; }
+  static PerSky<bool> seen_skies(Region, Tetrad tetrad, double) {
+    PerSky<bool> seen;
+    seen[own_sky(tetrad)] = true;
+    return seen;
+  }
+};
+
+class Spacetime {
+ public:
+  using Kind = std::variant<FlatSpace, Schwarzschild>;
+
+  Spacetime() = default;                                 // flat
+  Spacetime(const FlatSpace& kind) : kind_(kind) {}      // NOLINT: each kind is a spacetime
+  Spacetime(const Schwarzschild& kind) : kind_(kind) {}  // NOLINT
+
+  const Kind& kind() const { return kind_; }
+  bool is_flat() const { return std::holds_alternative<FlatSpace>(kind_); }
+
+  // Returns the mass of the hole, or nothing without one.
+  std::optional<double> solar_masses() const {
+    return std::visit([](const auto& kind) { return kind.solar_masses(); }, kind_);
+  }
+  // Returns the seconds of one unit of proper time, which is one M.
+  double seconds_per_m() const {
+    return std::visit([](const auto& kind) { return kind.seconds_per_m(); }, kind_);
+  }
+  // Returns the numbers beside its mass that tell a spacetime from others of its kind.  All frames
+  // depend on them.
+  std::vector<double> parameters() const {
+    return std::visit([](const auto& kind) { return kind.parameters(); }, kind_);
+  }
+
+  // Returns the r that region I, and what can rest, lies above.
+  double horizon() const {
+    return std::visit([](const auto& kind) { return kind.horizon(); }, kind_);
+  }
+  double light_circle() const {
+    return std::visit([](const auto& kind) { return kind.light_circle(); }, kind_);
+  }
+  double last_stable_orbit() const {
+    return std::visit([](const auto& kind) { return kind.last_stable_orbit(); }, kind_);
+  }
+
+  // Returns s, the speed of radial free fall from rest at infinity against observers at rest.
+  double free_fall_speed(double r) const {
+    return std::visit([r](const auto& kind) { return kind.free_fall_speed(r); }, kind_);
+  }
+  // Returns f, of either sign.  Its root is the rate of a clock at rest.
+  double lapse_squared(double r) const {
+    return std::visit([r](const auto& kind) { return kind.lapse_squared(r); }, kind_);
+  }
+  // Returns the frequency of light from infinity for the observer at rest, over that at infinity:
+  // 1/(1 + z_grav) = 1/sqrt(f), [Riazuelo] eq. zgrav, for r above the horizon.
+  double gravitational_ratio(double r) const { return 1 / std::sqrt(lapse_squared(r)); }
+  // Returns gamma v along R, against the rain tetrad, of what is at rest in r outside the horizon
+  // or in t inside.  Against the outgoing tetrad it has the opposite sign.
+  double resting_celerity(double r) const {
+    return std::visit([r](const auto& kind) { return kind.resting_celerity(r); }, kind_);
+  }
+  // Returns r*, with which v = t + r* and u = t - r* are the times of light that falls and rises.
+  double tortoise(double r) const {
+    return std::visit([r](const auto& kind) { return kind.tortoise(r); }, kind_);
+  }
+
+  // Says which of the skies I and III are seen at r of a region, where light is bent.
+  PerSky<bool> seen_skies(Region region, Tetrad tetrad, double r) const {
+    return std::visit([=](const auto& kind) { return kind.seen_skies(region, tetrad, r); }, kind_);
+  }
+
+ private:
+  Kind kind_;
+};
+
+}  // namespace domefall

@@ -1,0 +1,233 @@
+#include "pipeline/theatre/movie/movie_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "pipeline/base/errors.h"
+#include "pipeline/base/new_file.h"
+#include "pipeline/base/side_by_side.h"
+
+namespace domefall {
+namespace {
+
+using Arguments = std::vector<std::string>;
+using Subtitles = std::unique_ptr<MemoryFile>;
+
+void append_to(Arguments& all, const Arguments& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+// Returns a path by which this process, and a child that keeps the descriptor, can open its file,
+// whatever name the file has, if any.
+std::string path_of_descriptor(int number) { return fmt::format("/proc/self/fd/{}", number); }
+
+// ffmpeg reads subtitles only from a file.
+Subtitles subtitle_file(const std::string& text) {
+  if (text.empty()) return nullptr;
+  auto file = std::make_unique<MemoryFile>("the subtitles");
+  file->append(text);
+  return file;
+}
+
+Arguments ffmpeg_arguments(const MoviePlan& plan, const Subtitles& subtitles,
+                           const Arguments& output) {
+  Arguments all{"ffmpeg", "-nostdin", "-hide_banner", "-v", "error", "-y"};
+  append_to(all, input_options(plan.frames, plan.rate));
+  append_to(all, sound_inputs(plan.sound));
+  append_to(all, sound_options(plan.sound, plan.first, plan.count, plan.rate));
+  append_to(all, video_options(plan.preset, plan.frames, plan.rate, plan.tags,
+                               subtitles ? subtitles->path() : std::string()));
+  if (!plan.sound.files.empty()) append_to(all, plan.preset.sound);
+  append_to(all, output);
+  return all;
+}
+
+Arguments movie_arguments(const MoviePlan& plan, const Subtitles& subtitles, int file) {
+  return ffmpeg_arguments(
+      plan, subtitles,
+      {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
+       std::string(format_of(plan.preset)), "file:" + path_of_descriptor(file)});
+}
+
+constexpr const char *kPackage = "ffmpeg", *kMatroskaPackage = "mkvtoolnix";
+
+// Says whether a program names an error of the disk or of memory.  ffmpeg names it in the words of
+// the C library, and does not translate them.
+bool names_lack(const ChildOutcome& outcome) {
+  const auto says = [&](int error) {
+    return outcome.said.find(std::strerror(error)) != std::string::npos;
+  };
+  return says(ENOSPC) || says(EDQUOT) || says(EIO) || says(EFBIG) || says(ENOMEM) || says(ESTALE);
+}
+
+// Has mkvmerge say that a movie is a sphere.  Its options come from a file, as JSON, since it takes
+// a word of its command line that begins with @ for the name of such a file, whatever option the
+// word belongs to.
+//
+// Projection type 1 of Matroska is equirectangular.  Matroska's times are whole milliseconds, so
+// the exact rate is given beside them.  mkvmerge ends with 1 for warnings and writes what is wrong
+// to its standard output. The title stays that of the flat movie.  As an option it could be taken
+// for one, such as -o, which mkvmerge looks for before it reads which words belong to which.
+ChildOutcome wrap_around(const FrameRate& rate, int from, int to) {
+  const nlohmann::json words{"--quiet",
+                             "--output",
+                             path_of_descriptor(to),
+                             "--default-duration",
+                             fmt::format("0:{}/{}p", rate.frames, rate.seconds),
+                             "--projection-type",
+                             "0:1",
+                             path_of_descriptor(from)};
+  const MemoryFile options("the options of mkvmerge");
+  options.append(words.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
+  ChildProgram mkvmerge({"mkvmerge", "@" + options.path()}, {from, to, options.number()},
+                        kMatroskaPackage);
+  ChildOutcome outcome = mkvmerge.wait();
+  if (!outcome.good()) outcome.said += mkvmerge.output();
+  return outcome;
+}
+
+void require_program(const char* name, const char* option, const char* package) {
+  const ChildOutcome outcome = ChildProgram({name, option}, {}, package).wait();
+  if (!outcome.good())
+    throw TemporaryError(
+        fmt::format("the program {} does not work here: it {}", name, outcome.text()));
+}
+
+// Returns the name of the encoder in ffmpeg's options for video.
+std::string codec_of(const Arguments& video) {
+  const auto at = std::ranges::find(video, "-c:v");
+  return at == video.end() ? std::string("an encoder") : "the encoder " + *(at + 1);
+}
+
+// Makes the movie of a small black frame, in memory.
+ChildOutcome try_small(const MoviePlan& plan) {
+  constexpr int kSide = 128;
+  MoviePlan small = plan;
+  small.frames = {kSide, kSide};
+  small.first = 0, small.count = 1;
+  const Subtitles subtitles =
+      subtitle_file(plan.subtitles.substr(0, plan.subtitles.find("Dialogue")));
+  const MemoryFile made("a movie on trial"), wrapped("a movie on trial");
+  std::vector<int> kept{made.number()};
+  if (subtitles) kept.push_back(subtitles->number());
+  ChildProgram ffmpeg(movie_arguments(small, subtitles, made.number()), kept, kPackage);
+  const std::vector<unsigned short> black(std::size_t{3} * kSide * kSide);
+  ffmpeg.write(black.data(), black.size() * sizeof black[0]);
+  ChildOutcome outcome = ffmpeg.wait();
+  if (outcome.good() && plan.preset.whole_sphere)
+    outcome = wrap_around(plan.rate, made.number(), wrapped.number());
+  return outcome;
+}
+
+}  // namespace
+
+void try_movie(const MoviePlan& plan) {
+  for (const char* program : {"ffmpeg", "ffprobe"}) require_program(program, "-version", kPackage);
+  if (plan.preset.whole_sphere) require_program("mkvmerge", "--version", kMatroskaPackage);
+  const ChildOutcome outcome = try_small(plan);
+  if (outcome.good()) return;
+  if (!plan.sound.files.empty() && !outcome.killed() && !names_lack(outcome)) {
+    MoviePlan silent = plan;
+    silent.sound = {};
+    if (try_small(silent).good())
+      throw InputError(
+          fmt::format("{}: this cannot be the sound of the preset {}{}; ffmpeg {}",
+                      plan.sound.files.front().file.string(), plan.preset.name,
+                      plan.sound.layout.empty()
+                          ? ""
+                          : "; its codec may have no place for the channels " + plan.sound.layout,
+                      outcome.text()));
+  }
+  throw TemporaryError(fmt::format(
+      "the programs of this machine cannot make the preset {}, which needs {}{} of ffmpeg; some "
+      "builds leave them out for their licences, and Debian's package ffmpeg has them; a trial {}",
+      plan.preset.name, codec_of(plan.preset.video),
+      plan.preset.burn_in ? " and the filters zscale and ass" : " and the filter zscale",
+      outcome.text()));
+}
+
+MovieFile::MovieFile(const std::filesystem::path& path, const MoviePlan& plan)
+    : path_(path),
+      count_(plan.count),
+      rate_(plan.rate),
+      file_(path),
+      subtitles_(subtitle_file(plan.subtitles)) {
+  if (plan.preset.whole_sphere) flat_.emplace(path);
+  std::vector<int> kept{by_ffmpeg()};
+  if (subtitles_) kept.push_back(subtitles_->number());
+  ffmpeg_ = std::make_unique<ChildProgram>(movie_arguments(plan, subtitles_, by_ffmpeg()), kept,
+                                           kPackage);
+}
+
+void MovieFile::add(const RowPicture& frame) {
+  using Strip = std::vector<unsigned short>;
+  const int most = rows_of_strip(frame.width, frame.height);
+  const auto row = static_cast<std::size_t>(frame.width) * 3;
+  const auto rows_in = [&](int part) { return std::min(most, frame.height - part * most); };
+  bool reads = true;
+  make_in_order<Strip>((frame.height + most - 1) / most,
+                       [&](int part, Strip& strip) {
+                         strip.resize(row * static_cast<std::size_t>(most));
+                         frame.rows(part * most, part * most + rows_in(part), strip.data());
+                       },
+                       [&](int part, Strip& strip) {
+                         const std::size_t values = row * static_cast<std::size_t>(rows_in(part));
+                         reads = reads && ffmpeg_->write(strip.data(), values * sizeof strip[0]);
+                       });
+  if (!reads) fail(ffmpeg_->wait());
+  ++added_;
+}
+
+void MovieFile::finish() {
+  const ChildOutcome outcome = ffmpeg_->wait();
+  // After a write that failed for a full disk ffmpeg may end with 0.
+  if (!outcome.good() || names_lack(outcome)) fail(outcome);
+  if (flat_) {
+    const ChildOutcome wrapped = wrap_around(rate_, flat_->descriptor(), file_.descriptor());
+    const std::string what = fmt::format("{}: mkvmerge, which says that it is a sphere, {}",
+                                         path_.string(), wrapped.text());
+    if (wrapped.killed() || names_lack(wrapped)) throw TemporaryError(what);
+    if (!wrapped.good()) throw std::runtime_error(what);
+  }
+  count_frames(outcome);
+  if (fsync(file_.descriptor()) != 0) throw_file_error(path_, errno);
+  file_.put_in_place();
+}
+
+// Matroska says nothing of its number of frames, so that those of a sphere are counted.
+void MovieFile::count_frames(const ChildOutcome& made) const {
+  const bool is_told = !flat_;
+  Arguments command{"ffprobe", "-v", "error", "-select_streams", "v:0"};
+  append_to(command, is_told
+                         ? Arguments{"-show_entries", "stream=nb_frames"}
+                         : Arguments{"-count_packets", "-show_entries", "stream=nb_read_packets"});
+  append_to(command, {"-of", "default=noprint_wrappers=1:nokey=1", "-i",
+                      "file:" + path_of_descriptor(file_.descriptor())});
+  ChildProgram probe(std::move(command), {file_.descriptor()}, kPackage);
+  const ChildOutcome outcome = probe.wait();
+  std::string found = probe.output();
+  found.resize(std::min(found.size(), found.find('\n')));
+  if (!outcome.good() || found != fmt::to_string(count_))
+    throw TemporaryError(fmt::format(
+        "{}: ffmpeg was given {} frames, and the movie that it wrote has {}; nothing was kept{}",
+        path_.string(), count_, found.empty() ? "none that can be read" : found,
+        made.said.empty() ? "" : ":\n" + made.said));
+}
+
+void MovieFile::fail(const ChildOutcome& outcome) const {
+  const std::string what = fmt::format("{}: after {} of {} frames ffmpeg {}", path_.string(),
+                                       added_, count_, outcome.text());
+  // ffmpeg catches a signal, says that it has received it, and ends with a code.
+  const bool ended = outcome.killed() || outcome.said.find("received signal") != std::string::npos;
+  if (ended || names_lack(outcome)) throw TemporaryError(what);
+  throw std::runtime_error(what);
+}
+
+}  // namespace domefall

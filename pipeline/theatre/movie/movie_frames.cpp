@@ -1,0 +1,128 @@
+#include "pipeline/theatre/movie/movie_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <future>
+#include <memory>
+#include <string>
+
+#include "pipeline/base/disk_room.h"
+#include "pipeline/base/errors.h"
+#include "pipeline/base/talk.h"
+#include "pipeline/render/frame_grading.h"
+#include "pipeline/render/frames/graded_frames.h"
+#include "pipeline/render/frames/progress.h"
+#include "pipeline/render/keyed_renderer.h"
+#include "pipeline/theatre/movie/burn_in.h"
+
+namespace domefall {
+namespace {
+
+// Returns how many frames are unpacked ahead, within half a gibibyte but at least one.
+std::size_t frames_ahead(const MovieRun& run) {
+  constexpr std::size_t kMost = std::size_t{512} << 20;
+  const std::size_t bytes = sizeof(unsigned short) * 3 *
+                            static_cast<std::size_t>(columns(run.show.projection)) *
+                            static_cast<std::size_t>(rows(run.show.projection));
+  return std::clamp<std::size_t>(kMost / bytes, 1, static_cast<std::size_t>(run.threads));
+}
+
+void say_done(const MovieRun& run, const Progress& progress) {
+  progress.end();
+  say(fmt::format("{} frame{}, {:.3f} s at {} a second, made in {:.1f} s: {}", run.frames.size(),
+                  run.frames.size() == 1 ? "" : "s", duration_of(run.plan.count, run.plan.rate),
+                  text_of(run.plan.rate), progress.seconds(), run.out.string()));
+}
+
+}  // namespace
+
+MoviePlan plan_movie(const MoviePreset& preset, const Show& show, const std::vector<int>& frames,
+                     Sound sound, const std::filesystem::path& out) {
+  const Projection& projection = show.projection;
+  if (preset.whole_sphere && !std::holds_alternative<Equirectangular>(projection))
+    throw InputError(
+        fmt::format("--preset {}: takes frames of the projection {}, and those of this show are {}",
+                    preset.name, Equirectangular::kTraits.name, projection_name(projection)));
+  const MovieSize size{columns(projection), rows(projection)};
+  const MovieSize made = movie_size(preset, size);
+  MoviePlan plan{preset,
+                 show.title,
+                 size,
+                 frame_rate_of(show.frames_per_second),
+                 frames.front(),
+                 static_cast<int>(frames.size()),
+                 {},
+                 std::move(sound),
+                 preset.burn_in ? burn_in(show, {frames.front()}, made) : std::string()};
+  require_fitting(preset, plan.rate, plan.sound);
+  const double least = least_bytes(preset, made, plan.count, plan.rate, plan.sound.channels);
+  require_room(
+      out, least,
+      fmt::format("a movie of {} frames of {} x {} pixels takes at least {}, which is "
+                  "that of black frames ({} bits a pixel){}",
+                  plan.count, made.width, made.height, bytes_text(least), preset.least_bits,
+                  preset.whole_sphere ? ", twice while it is made" : ""));
+  try_movie(plan);
+  return plan;
+}
+
+void movie_of_finished(const MovieRun& run, const std::filesystem::path& folder) {
+  if (!run.show.output.graded)
+    throw InputError(run.show.file.string() +
+                     ": keeps no graded frames (output: {graded: none}); without --from, movie "
+                     "renders and grades them itself");
+  const GradedFrames finished(run.show, run.grader, folder);
+  finished.check(run.frames, run.threads,
+                 fmt::format("this movie takes {} x {} pixels. Another --from or --size fits them",
+                             columns(run.show.projection), rows(run.show.projection)),
+                 "; without --from, movie does");
+  MovieFile movie(run.out, run.plan);
+  Progress progress(run.frames.size());
+  std::deque<std::future<GradedFrame>> ahead;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    for (; next < run.frames.size() && ahead.size() < frames_ahead(run); ++next)
+      ahead.push_back(std::async(std::launch::async, [&finished, number = run.frames[next]] {
+        return finished.read(number);
+      }));
+    const GradedFrame frame = ahead.front().get();
+    ahead.pop_front();
+    movie.add({frame.width, frame.height, [&frame](int first, int end, unsigned short* rgb) {
+                 std::copy(frame.row(first), frame.row(end), rgb);
+               }});
+    progress.made();
+  }
+  movie.finish();
+  say_done(run, progress);
+}
+
+void movie_of_rendered(const MovieRun& run) {
+  KeyedRenderer renderer(run.show, run.frames, run.grader.transform_id(), run.threads);
+  FrameGrading grading(run.grader, run.threads);
+  MovieFile movie(run.out, run.plan);
+  Progress progress(run.frames.size());
+  auto rendered = std::make_unique<LayeredHalfFrame>(),
+       taken = std::make_unique<LayeredHalfFrame>();
+  std::future<void> taking;
+  const auto finish = [&] {
+    if (!taking.valid()) return;
+    taking.get();
+    progress.made();
+  };
+  for (const int number : run.frames) {
+    const FrameState state = frame_state(run.show, number);
+    renderer.render(state, *rendered);
+    finish();
+    std::swap(rendered, taken);
+    taking = std::async(std::launch::async, [&movie, &grading, state, frame = taken.get()] {
+      grading.grade(frame->picture, state, [&movie](const RowPicture& rows) { movie.add(rows); });
+    });
+  }
+  finish();
+  movie.finish();
+  say_done(run, progress);
+}
+
+}  // namespace domefall

@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# The layers of scene-linear files, put together again by another program.
+source "$(dirname "$0")/common.bash"
+ln -s "$DOMEFALL_SOURCE"/shows/* .
+
+# layered SHOW OUT OUTPUT...: a shipped show whose scene-linear files have layers.
+layered() {
+  sed '/^output:/d' "$1" >"$2"
+  printf 'output: {graded: none, name: f, layers: [titles, sky, stars, disc, bodies]%s}\n' "$3" >>"$2"
+}
+
+# off_by FILE: by how much the layers, put together by the formula of docs/compositing.md, are off
+# the picture at most, as a part of it.
+off_by() {
+  local layer sum=()
+  for layer in stars disc bodies; do
+    sum+=("$1" --ch "$layer.R,$layer.G,$layer.B" --chnames 'r,g,b' --add)
+  done
+  oiiotool "$1" --ch sky.R,sky.G,sky.B --chnames r,g,b "${sum[@]}" \
+    "$1" --ch titles.A,titles.A,titles.A --chnames r,g,b --mulc -1 --addc 1 --mul \
+    "$1" --ch titles.R,titles.G,titles.B --chnames r,g,b --add \
+    "$1" --ch R,G,B --chnames r,g,b --sub --abs \
+    "$1" --ch R,G,B --chnames r,g,b --addc 0.001 --div -d float -o off.exr
+  oiiotool --stats off.exr | awk '/Stats Max/ { for (k = 3; k < 6; ++k) if ($k > most) most = $k; print most }'
+}
+
+# Frames of every shipped show, those of the demo among them.  Halves round by 1/2048 of themselves,
+# once for the picture and once for each layer.
+for show in "$DOMEFALL_SOURCE"/shows/*.yaml; do
+  name=$(basename "$show" .yaml)
+  layered "$show" "layers_of_$name.yaml" ""
+  count=$("$DOMEFALL" states "layers_of_$name.yaml" | grep -c '^[0-9]')
+  size=96
+  "$DOMEFALL" render "layers_of_$name.yaml" --size $size --dry-run >stdout 2>&1 || size=96x54
+  exits 0 "$DOMEFALL" render "layers_of_$name.yaml" --size $size --out "out_$name" \
+    --frames "$((count * 2 / 5))"
+  for file in "out_$name"/linear/*.exr; do
+    off=$(off_by "$file")
+    awk -v off="$off" 'BEGIN { exit !(off < 0.003) }' || fail "$file is off by $off"
+  done
+done
+
+# The picture is that of a frame without layers, whose key is another.
+frame=$(find out_disc/linear -name '*.exr' | sort | head -1)
+number=$((10#$(basename "$frame" .exr | cut -c3-)))
+cp layers_of_disc.yaml kept.yaml
+sed -i 's/layers: \[[^]]*\]/owner: us/' layers_of_disc.yaml
+exits 0 "$DOMEFALL" render layers_of_disc.yaml --size 96 --frames "$number" --out plain
+oiiotool "$frame" --ch R,G,B -o picture.exr
+same_pixels picture.exr "plain/linear/$(basename "$frame")" || fail "layers change the picture"
+mv kept.yaml layers_of_disc.yaml
+exits 0 "$DOMEFALL" render layers_of_disc.yaml --size 96 --frames "$number" --out plain
+says '^1 frames made'
+exits 0 "$DOMEFALL" render layers_of_disc.yaml --size 96 --frames "$number" --out plain
+says '^0 frames made'
+
+# Channels in the order in which other programs list them; alpha is 1 in the dome alone.
+exits 0 oiiotool --info -v "$frame"
+grep -q 'channel list: R.*G.*B.*A.*bodies.R.*bodies.A.*disc.R.*disc.A.*sky.R.*stars.R.*titles.R.*titles.A' stdout ||
+  fail "channels: $(grep 'channel list' stdout)"
+
+# It is graded from the file as it would be at once.
+sed 's/graded: none/graded: png16/' layers_of_disc.yaml >graded.yaml
+exits 0 "$DOMEFALL" render graded.yaml --size 96 --frames "$number" --out at_once
+mkdir -p later
+cp -r at_once/linear later/
+exits 0 "$DOMEFALL" grade graded.yaml --size 96 --frames "$number" --out later
+same_frames at_once/graded later/graded
+
+# Floats have layers of floats.
+layered disc.yaml floats.yaml ', linear: float, compression: piz'
+exits 0 "$DOMEFALL" render floats.yaml --size 64 --frames "$number" --out floats
+off=$(off_by "floats/linear/$(basename "$frame")")
+awk -v off="$off" 'BEGIN { exit !(off < 1e-3) }' || fail "floats are off by $off"
+
+# Wrong lists are refused with their place.
+refuses() {
+  printf 'size: 64\ntimeline: [{duration_s: 1}]\noutput: {%s}\n' "$1" >wrong.yaml
+  exits 2 "$DOMEFALL" check wrong.yaml
+  says "wrong.yaml:3:[0-9]+: $2"
+}
+refuses 'layers: [sky, star]' "output.layers\[2\] must be sky.*'star'; did you mean stars"
+refuses 'layers: [sky, sky]' 'output.layers\[2\] is listed twice: sky'
+refuses 'layers: sky' 'output.layers'
+refuses 'linear: none, layers: [sky]' 'output.layers are in scene-linear files'

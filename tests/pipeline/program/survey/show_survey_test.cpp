@@ -1,0 +1,166 @@
+#include "pipeline/program/survey/show_survey.h"
+
+#include <cmath>
+
+#include "pipeline/program/survey/show_jumps.h"
+#include "tests/pipeline/show/show_file.h"
+
+namespace domefall {
+namespace {
+
+using Surveys = ObservedShow;
+
+TEST_F(Surveys, APeriastronBetweenFramesIsFound) {
+  // 6 M is passed in the middle of a show of 3.4 s with 2 frames a second, between frames 3 and 4.
+  const ShowSurvey s = survey(show(
+      "  - {duration_s: 3.4, trajectory: {type: parabolic, periastron: 6, from_r: 40, to_r: 40, "
+      "to_leg: outward}}\n",
+      "frames_per_second: 2\n"));
+  ASSERT_TRUE(s.closest);
+  EXPECT_NEAR(s.closest->value, 6, 1e-12);
+  EXPECT_NEAR(s.closest->time_s, 1.7, 1e-6);
+  EXPECT_EQ(s.closest->frame, 3);
+  EXPECT_EQ(s.segments[0].type, "parabolic");
+  EXPECT_NEAR(s.segments[0].r_end, 40, 1e-9);
+}
+
+TEST_F(Surveys, APeriastronIsFoundAmongMoreTurnsThanFrames) {
+  const ShowSurvey s = survey(show(
+      "  - {duration_s: 2, trajectory: {type: bound, periastron: 7, apoastron: 900, rate_m_per_s: "
+      "1e9}}\n"));
+  EXPECT_NEAR(s.closest->value, 7, 1e-9);
+}
+
+TEST_F(Surveys, APeriastronIsFoundWithinAWayOfMillionsOfYears) {
+  // The orbit turns at 10 M, in 1e-11 of the segment's proper time.
+  const ShowSurvey s = survey(
+      show("  - {duration_s: 2, trajectory: {type: thrown, from_r: 1e9, speed: 4.5e-5, direction: "
+           "{radial: -1, phi: 1.11111111e-4}, to_r: 3e8, to_leg: outward}}\n"));
+  EXPECT_NEAR(s.closest->value, 10, 0.01);
+}
+
+// It was told as "0 M of proper time".
+TEST_F(Surveys, TheProperTimeOfADeepSegmentIsWhatPasses) {
+  const ShowSurvey s = survey(
+      show("  - {duration_s: 10, trajectory: {type: kruskal, energy: 0.99999999, from_r: 0.001, "
+           "rate_m_per_s: 0.0000001}}\n"));
+  EXPECT_NEAR(s.segments[0].proper_time, 1e-6, 1e-20);
+  EXPECT_NEAR(s.segments[0].rate_begin, 1e-7, 1e-13);
+  EXPECT_NEAR(s.segments[0].rate_end, 1e-7, 1e-13);
+  EXPECT_NEAR(s.segments[0].r_begin, 0.001, 1e-15);
+}
+
+TEST_F(Surveys, RegionsAreNamedInTheOrderVisited) {
+  const ShowSurvey s = survey(
+      show("  - {duration_s: 2, trajectory: {type: kruskal, energy: 0.001, from_r: 0.1, to_r: 0.1, "
+           "to_leg: inward}}\n"
+           "  - {duration_s: 2, trajectory: {type: infall, region: III, from_r: 5, to_r: 1}}\n"));
+  using enum Region;
+  EXPECT_EQ(s.segments[0].regions, (std::vector{kIV, kI, kII}));
+  EXPECT_EQ(s.segments[1].regions, (std::vector{kIII, kII}));
+  EXPECT_EQ(s.regions, (std::vector{kIV, kI, kII, kIII, kII}));
+}
+
+TEST_F(Surveys, SpeedsAreThoseOfKeplersCircles) {
+  // Against the static observer v^2 = 1/(r - 2), so that v = 1/2 at the last stable orbit and gamma
+  // v is 1/sqrt(3).
+  const ShowSurvey s = survey(show("  - {duration_s: 1, trajectory: {type: circular, r: 6}}\n"));
+  EXPECT_NEAR(s.fastest->value, 1 / std::sqrt(3), 1e-14);
+  // At rest there all light is bluer by one factor, and the sky is both ahead and behind.
+  EXPECT_NEAR(s.bluest->value, std::sqrt(2.0 / 3) / std::sqrt(3), 1e-14);
+  EXPECT_NEAR(s.reddest->value, std::sqrt(2.0 / 3) * std::sqrt(3), 1e-14);
+}
+
+TEST_F(Surveys, OfOneAtRestAllOfTheSkyIsBluerByOneFactor) {
+  const ShowSurvey s = survey(show("  - {duration_s: 1, trajectory: {type: static, r: 8}}\n"));
+  EXPECT_NEAR(s.bluest->value, std::sqrt(0.75), 1e-14);
+  EXPECT_NEAR(s.reddest->value, std::sqrt(0.75), 1e-14);
+  EXPECT_NEAR(s.fastest->value, 0, 1e-14);
+}
+
+TEST_F(Surveys, FlatSpaceHasShiftsAndNoPlace) {
+  const ShowSurvey s =
+      survey(read("timeline: [{duration_s: 1, trajectory: {type: velocity, speed: 0.6, direction: "
+                  "Vega}}]\n"));
+  EXPECT_FALSE(s.closest);
+  EXPECT_NEAR(s.bluest->value, 0.5, 1e-14);
+  EXPECT_NEAR(s.reddest->value, 2, 1e-14);
+  EXPECT_NEAR(s.fastest->value, 0.75, 1e-14);
+}
+
+TEST_F(Surveys, ABlackSkyHasNoShift) {
+  const ShowSurvey s = survey(show("  - {duration_s: 1, trajectory: {type: static, r: 8}}\n",
+                                   "sky: {region_I: {background: black, stars: none}}\n"));
+  EXPECT_FALSE(s.bluest);
+  EXPECT_FALSE(s.reddest);
+}
+
+using ShowJumps = ObservedShow;
+
+std::vector<std::string> texts(const Show& show) {
+  std::vector<std::string> all;
+  for (const ShowWarning& w : jump_warnings(show)) all.push_back(w.text);
+  return all;
+}
+
+TEST_F(ShowJumps, JointsSayWhatJumps) {
+  const auto joints = segment_joints(show(
+      "  - {duration_s: 1, trajectory: {type: parabolic, periastron: 6, from_r: 20, to_r: 10}}\n"
+      "  - {duration_s: 1, trajectory: {type: continue, to_r: 8}}\n"
+      "  - {duration_s: 1, trajectory: {type: static, r: 8}}\n"
+      "  - {duration_s: 1, trajectory: {type: circular, r: 12}}\n"));
+  ASSERT_EQ(joints.size(), 3);
+  EXPECT_FALSE(joints[0].place_jumps());
+  EXPECT_FALSE(joints[0].velocity_jumps());
+  EXPECT_FALSE(joints[1].place_jumps());
+  // A fall from rest at infinity moves at sqrt(2/r) against the static observer.
+  EXPECT_NEAR(joints[1].speed.value(), 0.5, 1e-12);
+  EXPECT_TRUE(joints[2].place_jumps());
+  EXPECT_NEAR(joints[2].r_after, 12, 1e-12);
+  EXPECT_FALSE(joints[2].speed);
+}
+
+TEST_F(ShowJumps, ACalmShowHasNoWarning) {
+  EXPECT_TRUE(texts(show("  - {duration_s: 4, trajectory: {type: circular, r: 9, orbits: 3}}\n"
+                         "  - {duration_s: 4, trajectory: {type: static, r: 12}}\n",
+                         "keyframes:\n"
+                         "  - {at_s: 0, exposure: {ev: -6}}\n"
+                         "  - {at_s: 3, exposure: {ev: 1}}\n"))
+                  .empty());
+}
+
+TEST_F(ShowJumps, AFastRollAndAFlashAreWarnedOfWhereTheyAre) {
+  const auto warnings =
+      jump_warnings(show("  - duration_s: 6\n"
+                         "    trajectory: {type: static, r: 12}\n"
+                         "    keyframes:\n"
+                         "      - {at_s: 1, camera: {roll_deg: 0}, exposure: {ev: 0}}\n"
+                         "      - {at_s: 3, camera: {roll_deg: 90}, ease: linear}\n"
+                         "      - {at_s: 4, exposure: {ev: 2}, ease: hold}\n"
+                         "      - {at_s: 5, sky: {region_I: {gain: 3}}, ease: hold}\n"));
+  ASSERT_EQ(warnings.size(), 3);
+  EXPECT_EQ(warnings[0].text, "the camera turns by 45 degrees a second");
+  EXPECT_GE(warnings[0].time_s, 1);
+  EXPECT_LE(warnings[0].time_s, 3);
+  EXPECT_EQ(warnings[1].text, "the exposure changes by +2 stops between frames");
+  EXPECT_EQ(warnings[1].frame, 120);
+  EXPECT_EQ(warnings[2].text, "sky.region_I.gain jumps at a keyframe that holds");
+  EXPECT_EQ(warnings[2].frame, 150);
+}
+
+TEST_F(ShowJumps, AClockThatChangesItsRateWhereTheMotionGoesOnIsWarnedOf) {
+  const std::string first =
+      "  - {duration_s: 2, trajectory: {type: circular, r: 9, rate_m_per_s: 10}}\n";
+  const auto after = [&](const std::string& rate) {
+    return texts(show(
+        first + "  - {duration_s: 2, trajectory: {type: continue, rate_m_per_s: " + rate + "}}\n"));
+  };
+  EXPECT_TRUE(after("19").empty());
+  EXPECT_EQ(after("25"), std::vector<std::string>{
+                             "the motion goes on, but its clock jumps from 10 to 25 M a second"});
+  EXPECT_EQ(after("[4, 10]").size(), 1);
+  EXPECT_TRUE(after("[10, 1]").empty());
+}
+
+}  // namespace
+}  // namespace domefall

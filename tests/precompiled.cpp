@@ -1,1 +1,0 @@
-// The headers that tests share are precompiled with the flags of this source (CMakeLists.txt).
