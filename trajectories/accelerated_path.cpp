@@ -254,7 +254,7 @@ OrbitPoint AcceleratedPath::Tables::state(std::size_t piece, double t) const {
           tetrad,
           p.r,
           pieces[piece].azimuth.at(t),
-          V3d(path_celerity(p, outgoing), 0, p.tangential),
+          {path_celerity(p, outgoing), 0, p.tangential},
           null_time(piece, t)};
 }
 

@@ -16,7 +16,7 @@ OrbitPoint CircularOrbit::at(const ProperTime& tau) const {
           Tetrad::kRain,
           r,
           azimuth,
-          V3d(std::sqrt(2 / (r - 3)), 0, 1 / std::sqrt(r - 3)),
+          {std::sqrt(2 / (r - 3)), 0, 1 / std::sqrt(r - 3)},
           double(tau) / std::sqrt(1 - 3 / r)};
 }
 

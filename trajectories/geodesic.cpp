@@ -48,7 +48,7 @@ OrbitPoint Geodesic::Tables::apex_state(double s) const {
           tetrad,
           r,
           table.at(s).azimuth,
-          V3d(still, 0, l),
+          {still, 0, l},
           outgoing ? -rstar : rstar};
 }
 
@@ -64,9 +64,9 @@ OrbitPoint Geodesic::Tables::state(double s) const {
           outgoing ? Tetrad::kOutgoing : Tetrad::kRain,
           p.r,
           place.azimuth,
-          V3d(Schwarzschild::radial_celerity(p.r, p.radial_speed, c.energy, l * l - c.excess_energy,
-                                             outgoing),
-              0, l),
+          {Schwarzschild::radial_celerity(p.r, p.radial_speed, c.energy, l * l - c.excess_energy,
+                                          outgoing),
+           0, l},
           place.null_time};
 }
 

@@ -4,17 +4,31 @@
 
 namespace domefall {
 
-V3d resting_celerity(const Spacetime& spacetime, double r, Tetrad tetrad) {
+Celerity<ReferenceTetrad> resting_celerity(const Spacetime& spacetime, double r, Tetrad tetrad) {
   const double celerity = spacetime.resting_celerity(r);
   return {is_outgoing(tetrad) ? -celerity : celerity, 0, 0};
 }
 
-V3d static_celerity(const ObserverState& o) {
-  // The reference frame falls at -s or rises at s, so dr/dtau = c_R -+ s gamma.  For the static
-  // observer dr is the length dr/sqrt(f).
-  const double s = o.spacetime.free_fall_speed(o.r), gamma = std::sqrt(1 + o.celerity.length2());
-  const double rate = o.celerity.x + (is_outgoing(o.tetrad) ? s * gamma : -s * gamma);
+// The T of rain has dr/dtau = -s, and that of the outgoing tetrad has s.
+double radial_rate(const Spacetime& spacetime, double r, Tetrad tetrad,
+                   const Celerity<ReferenceTetrad>& celerity) {
+  const double s = spacetime.free_fall_speed(r), gamma = gamma_of(celerity);
+  return celerity.x + (is_outgoing(tetrad) ? s * gamma : -s * gamma);
+}
+
+Celerity<RestFrame> static_celerity(const ObserverState& o) {
+  // For the observer at rest dr is the length dr/sqrt(f).
+  const double rate = radial_rate(o.spacetime, o.r, o.tetrad, o.celerity);
   return {rate / std::sqrt(o.spacetime.lapse_squared(o.r)), o.celerity.y, o.celerity.z};
+}
+
+// The two tetrads move at s and -s against the observer at rest, so they recede from each other at
+// 2s/(1 + s^2).  The gamma of this velocity is (1 + s^2)/(1 - s^2).
+Celerity<RainTetrad> rain_celerity(const Spacetime& spacetime, double r, Tetrad tetrad,
+                                   const Celerity<ReferenceTetrad>& celerity) {
+  if (!is_outgoing(tetrad)) return Celerity<RainTetrad>(celerity);
+  const double s = spacetime.free_fall_speed(r), below = (1 - s) * (1 + s);
+  return {((1 + s * s) * celerity.x + 2 * s * gamma_of(celerity)) / below, celerity.y, celerity.z};
 }
 
 }  // namespace domefall

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "pipeline/spacetime/spacetime.h"
+#include "trajectories/celerity.h"
 #include "trajectories/directions.h"
 
 namespace domefall {
@@ -26,9 +27,7 @@ struct ObserverState {
   // The columns are the directions of R, Theta and Phi of the reference tetrad on the celestial
   // sphere, so R is the observer's place as seen from the hole.  It is a rotation.
   M33d sky_from_tetrad;
-  // This is gamma * velocity against the reference tetrad, with components along (R, Theta, Phi).
-  // Any finite value is possible.
-  V3d celerity{0, 0, 0};
+  Celerity<ReferenceTetrad> celerity;  // any finite value is possible
   // The columns are camera X, Y, Z in the boosted tetrad (B R, B Theta, B Phi), with B the boost of
   // [Riazuelo] eq. Lambda_cov.  It is a rotation.
   M33d tetrad_from_camera;
@@ -43,12 +42,19 @@ inline PerSky<bool> seen_skies(const ObserverState& o) {
 // Says whether there is an observer at rest in r at the same place.
 inline bool has_rest(const ObserverState& o) { return o.r > o.spacetime.horizon(); }
 
-// Returns gamma v of what is at rest in r (outside) or in t (inside a horizon) against the tetrad.
-// The components are along R, Theta and Phi.
-V3d resting_celerity(const Spacetime& spacetime, double r, Tetrad tetrad);
+// Returns the celerity of what is at rest in r (outside) or in t (inside a horizon).
+Celerity<ReferenceTetrad> resting_celerity(const Spacetime& spacetime, double r, Tetrad tetrad);
 
-// Returns gamma v against the observer at rest, where there is one.  The components are along R,
-// Theta and Phi of the state's tetrad, and R points to growing r.
-V3d static_celerity(const ObserverState& o);
+// Returns dr/dtau of a motion, for any tetrad.
+double radial_rate(const Spacetime& spacetime, double r, Tetrad tetrad,
+                   const Celerity<ReferenceTetrad>& celerity);
+
+// Returns the celerity against the observer at rest, where there is one (has_rest).  R points to
+// growing r.
+Celerity<RestFrame> static_celerity(const ObserverState& o);
+
+// Returns the celerity against rain, for any tetrad where r > spacetime.horizon().
+Celerity<RainTetrad> rain_celerity(const Spacetime& spacetime, double r, Tetrad tetrad,
+                                   const Celerity<ReferenceTetrad>& celerity);
 
 }  // namespace domefall

@@ -14,9 +14,8 @@ struct OrbitPoint {
   Tetrad tetrad = Tetrad::kRain;
   double r = kFlatSpace;  // units of M
   double azimuth = 0;     // radians swept in the orbital plane since the start, in the sense of Phi
-  // This is gamma * velocity against the tetrad, with components (R, Theta, Phi).  Phi is the
-  // direction of the orbital motion, and -Theta the orbit's north.
-  V3d celerity{0, 0, 0};
+  // Phi is the direction of the orbital motion, and -Theta the orbit's north.
+  Celerity<ReferenceTetrad> celerity;
   // This is v = t + r* (rain) or u = t - r* (outgoing), with r* = r + 2 ln|r/2 - 1|, in units of M.
   // For the mirrored tetrads it is taken after t -> -t.  t counts from an origin of the
   // trajectory's own, the same for its tetrads, so v - u = 2 r* where it changes from one to the

@@ -43,7 +43,7 @@ OrbitPoint RadialInfall::at(const ProperTime& tau) const {
           Tetrad::kRain,
           r,
           0,
-          V3d(0, 0, 0),
+          {},
           DoubleDouble(fallen_null_time(from_r)) - fallen_null_time(r)};
 }
 

@@ -6,7 +6,7 @@
 
 namespace domefall {
 
-V3d resting_celerity(double r, Tetrad tetrad) {
+Celerity<ReferenceTetrad> resting_celerity(double r, Tetrad tetrad) {
   return resting_celerity(Schwarzschild{}, r, tetrad);
 }
 

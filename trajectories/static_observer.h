@@ -17,8 +17,8 @@ struct StaticObserver {
 
 inline constexpr double kStaticInnermost = Schwarzschild::horizon();  // r must exceed it
 
-// Returns gamma v of what is at rest near a Schwarzschild hole, for r != 2 (observer_state.h).  d/dt
+// Returns the celerity of what is at rest near a Schwarzschild hole, for r != 2 (observer_state.h).  d/dt
 // is T + s R in rain and T - s R in the outgoing frame, with s = sqrt(2/r).
-V3d resting_celerity(double r, Tetrad tetrad = Tetrad::kRain);
+Celerity<ReferenceTetrad> resting_celerity(double r, Tetrad tetrad = Tetrad::kRain);
 
 }  // namespace domefall

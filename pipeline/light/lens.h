@@ -16,6 +16,7 @@
 #include "pipeline/light/plane_rays.h"
 #include "pipeline/light/sky_points.h"
 #include "pipeline/spacetime/regions.h"
+#include "trajectories/celerity.h"
 #include "trajectories/directions.h"
 
 namespace domefall {
@@ -114,8 +115,8 @@ class Lens {
   Lens& operator=(const Lens&) = delete;
   virtual ~Lens() = default;
 
-  // Returns gamma v of the lens's frame against the reference tetrad, which most lenses work in.
-  virtual V3d frame() const { return V3d(0, 0, 0); }
+  // Returns the celerity of the lens's frame.  Most lenses work in the reference tetrad.
+  virtual Celerity<ReferenceTetrad> frame() const { return {}; }
 
   // Follows count <= ViewRayBatch::kSize directions back to a sky.  The columns `sky` and `to_edge`
   // are always set, and the others where that sky is known.

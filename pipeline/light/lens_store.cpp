@@ -13,7 +13,7 @@ std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
   if (straight) return lens_of(FlatSpace{}, observer, wanted, *straight);
   return std::visit(
       [&](const auto& kind) {
-        return lens_of(kind, observer, wanted, StraightLight{V3d(0, 0, 0), 1});
+        return lens_of(kind, observer, wanted, StraightLight{{}, 1});
       },
       observer.spacetime.kind());
 }

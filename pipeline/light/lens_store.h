@@ -12,10 +12,10 @@ namespace domefall {
 
 struct HoleOptics;
 
-// A StraightLight is for shows that leave lensing out near a hole: gamma v of the observer at rest
-// against the tetrad, and the frequency ratio of all light in that observer's frame.
+// A StraightLight is for shows that leave lensing out near a hole: the celerity of the observer
+// at rest, and the frequency ratio of all light in that observer's frame.
 struct StraightLight {
-  V3d rest;
+  Celerity<ReferenceTetrad> rest;
   double shift;
 };
 

@@ -8,12 +8,13 @@ namespace domefall {
 
 class StraightLens : public Lens {
  public:
-  // `frame` is gamma v of the observer at rest against the tetrad, and `shift` the frequency ratio
-  // of all light in that observer's frame.
-  StraightLens(double r, Tetrad tetrad, const M33d& sky_from_tetrad, const V3d& frame, double shift)
+  // `frame` is the celerity of the observer at rest, and `shift` the frequency ratio of all light in
+  // that observer's frame.
+  StraightLens(double r, Tetrad tetrad, const M33d& sky_from_tetrad,
+               const Celerity<ReferenceTetrad>& frame, double shift)
       : r_(r), tetrad_(tetrad), sky_from_tetrad_(sky_from_tetrad), frame_(frame), shift_(shift) {}
 
-  V3d frame() const override { return frame_; }
+  Celerity<ReferenceTetrad> frame() const override { return frame_; }
   void rays(const DirectionBatch& directions, int count, ViewRayBatch& rays) const override;
   ViewRay ray(const V3d& direction) const override;
   std::unique_ptr<const SkyPoints> points(SkyRegion,
@@ -26,7 +27,7 @@ class StraightLens : public Lens {
   double r_;
   Tetrad tetrad_;
   M33d sky_from_tetrad_;
-  V3d frame_;
+  Celerity<ReferenceTetrad> frame_;
   double shift_;
 };
 

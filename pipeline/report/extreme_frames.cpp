@@ -85,18 +85,17 @@ void add_domes(FrameTally& frames, const Trajectory& trajectory) {
 // A celerity of 1e6 is gamma v, so gamma = sqrt(1 + 1e12) is 1e6 to 5e-13.
 ExtremeResult lorentz_factor_of_a_million() {
   FrameTally frames;
-  for (const GivenVelocity& place :
-       {GivenVelocity{Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)},
-        GivenVelocity{Region::kI, Tetrad::kRain, 2.001, V3d(0, 0, 0)},
-        GivenVelocity{Region::kII, Tetrad::kRain, 0.5, V3d(0, 0, 0)},
-        GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.5, V3d(0, 0, 0)}})
+  for (const GivenVelocity& place : {GivenVelocity{Region::kI, Tetrad::kRain, 10, {0, 0, 0}},
+                                     GivenVelocity{Region::kI, Tetrad::kRain, 2.001, {0, 0, 0}},
+                                     GivenVelocity{Region::kII, Tetrad::kRain, 0.5, {0, 0, 0}},
+                                     GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.5, {0, 0, 0}}})
     // The 26 directions lead from the middle of a cube to its faces, edges and corners.
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z) {
           if (x == 0 && y == 0 && z == 0) continue;
           GivenVelocity moving = place;
-          moving.celerity = V3d(x, y, z).normalized() * 1e6;
+          moving.celerity = Celerity<ReferenceTetrad>(V3d(x, y, z).normalized() * 1e6);
           frames.add(extreme_show(moving, Domemaster{kExtremeSize / 3}, LookAlongMotion{}));
         }
   return frames.result(
@@ -123,7 +122,7 @@ ExtremeResult white_hole_frames() {
   // ([Riazuelo] eq. TR_IV).  At r = 2 itself nothing rests in t, because its celerity
   // sqrt(r/(2 - r)) is infinite there.
   for (const double r : {1e-6, 1.0, 2 - 1e-9, 2 - 1e-15, 2.0})
-    add_domes(frames, GivenVelocity{Region::kIV, Tetrad::kOutgoing, r, V3d(0, 0, 0)});
+    add_domes(frames, GivenVelocity{Region::kIV, Tetrad::kOutgoing, r, {}});
   for (const double r : {1e-6, 1.0, 2 - 1e-9, 2 - 1e-12})
     add_domes(frames, GivenVelocity{Region::kIV, Tetrad::kOutgoing, r,
                                     resting_celerity(r, Tetrad::kOutgoing)});
@@ -187,7 +186,7 @@ struct Series {
 // to first order, and within it 1 + z = sqrt(2/r) - 1 = d/4.  So the solid angle shrinks like
 // (1 + z)^2.
 GivenVelocity below_the_horizon(double depth) {
-  return {Region::kII, Tetrad::kRain, 2 - depth, V3d(0, 0, 0)};
+  return {Region::kII, Tetrad::kRain, 2 - depth, {0, 0, 0}};
 }
 
 // Returns an observer at rest at r = 2 + h, who sees the sky of region I in a disc about R whose
@@ -201,7 +200,7 @@ GivenVelocity at_rest_above_the_horizon(double altitude) {
 // 2 gamma^2.  The sky ahead is blueshifted by up to 2 gamma and gathers within angles of about
 // 1/gamma.
 GivenVelocity moving_fast(double slowness) {
-  return {Region::kI, Tetrad::kRain, 10, V3d(0, 0.6, 0.8) / slowness};
+  return {Region::kI, Tetrad::kRain, 10, {0, 0.6 / slowness, 0.8 / slowness}};
 }
 
 // Returns a show of the Milky Way whose intensity grows like the square of the frequency, by the

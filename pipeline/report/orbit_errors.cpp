@@ -268,7 +268,7 @@ std::vector<OrbitCase> orbit_cases(int states) {
 
 // The outgoing tetrad is the time reversal of rain, so its radial celerity has the other sign.
 FallState fall_state(const OrbitPoint& p) {
-  return {p.r, p.azimuth, std::sqrt(1 + p.celerity.dot(p.celerity)),
+  return {p.r, p.azimuth, gamma_of(p.celerity),
           is_outgoing(p.tetrad) ? -p.celerity.x : p.celerity.x, p.celerity.z};
 }
 

@@ -105,7 +105,7 @@ V3d motion_direction(const ObserverState& o) {
   // k - c (1 - c.k/(1 + gamma)), where c = gamma v.
   const double s = o.spacetime.free_fall_speed(o.r);
   const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
-  const double gamma = std::sqrt(1 + o.celerity.dot(o.celerity));
+  const double gamma = gamma_of(o.celerity);
   return -(killing - o.celerity * (1 - o.celerity.dot(killing) / (1 + gamma)));
 }
 

@@ -10,15 +10,11 @@ namespace domefall {
 namespace {
 
 // Brings a point of region I from the outgoing tetrad to rain.  All other points stay as they are.
-// With the radial celerity w, E = gamma + s w and u^r = w + s gamma in the outgoing tetrad.  In
-// rain both signs are minus, which gives w = (u^r + s E)/(1 - s^2).  The null times differ by
-// v - u = 2 r*.
+// The null times differ by v - u = 2 r*.
 OrbitPoint in_rain(const Spacetime& spacetime, OrbitPoint point) {
   if (!is_outgoing(point.tetrad) || point.region != Region::kI) return point;
-  const double s = spacetime.free_fall_speed(point.r);
-  const double gamma = std::sqrt(1 + point.celerity.dot(point.celerity));
-  const double energy = gamma + s * point.celerity.x, u_r = point.celerity.x + s * gamma;
-  point.celerity.x = (u_r + s * energy) / spacetime.lapse_squared(point.r);
+  point.celerity =
+      Celerity<ReferenceTetrad>(rain_celerity(spacetime, point.r, point.tetrad, point.celerity));
   point.null_time = point.null_time + 2 * spacetime.tortoise(point.r);
   point.tetrad = Tetrad::kRain;
   return point;
@@ -54,7 +50,7 @@ BodyMotion motion_of(const Spacetime& spacetime, const Body& body, const M33d& s
             return BodyPoint{node * std::cos(phi) + onward * std::sin(phi),
                              now.r,
                              body.null_time + double(now.null_time - start.null_time),
-                             std::sqrt(1 + now.celerity.dot(now.celerity)),
+                             gamma_of(now.celerity),
                              now.celerity.x,
                              normal * (now.r * now.celerity.z)};
           },

@@ -15,13 +15,11 @@
 namespace domefall {
 
 struct Viewer {
-  // `celerity` is gamma v of the observer whose directions are drawn, and `rest` that of the
-  // observer at rest, both against the reference tetrad.
-  V3d celerity, rest;
-  // `measured` is gamma v of the observer that measures frequencies, against the one whose
-  // directions are drawn and along the axes of the latter (those of the tetrad, boosted).  There is
-  // none if they are the same.
-  std::optional<V3d> measured;
+  // Of the observer whose directions are drawn, and of the one at rest.
+  Celerity<ReferenceTetrad> celerity{}, rest{};
+  // Of the observer that measures frequencies, if directions are drawn for the one at rest and the
+  // two are not the same.
+  std::optional<Celerity<RestFrame>> measured{};
 };
 
 // Returns the two observers for a state under the effects that a show keeps.

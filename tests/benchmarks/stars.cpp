@@ -42,13 +42,13 @@ const std::vector<Star>& all_stars() {
 struct Place {
   const char* name;
   double r;
-  V3d celerity;
+  Celerity<ReferenceTetrad> celerity;
 };
-const std::array<Place, 5> kPlaces{{{"flat", kFlatSpace, V3d(0, 0, 0)},
-                                    {"r = 100", 100, V3d(0.1, 0, 0)},
-                                    {"r = 7", 7, V3d(0.2, 0.3, 0)},
-                                    {"r = 2.001", 2.001, V3d(0, 0.3, 0)},
-                                    {"r = 1", 1, V3d(0, 0, 0)}}};
+const std::array<Place, 5> kPlaces{{{"flat", kFlatSpace, {0, 0, 0}},
+                                    {"r = 100", 100, {0.1, 0, 0}},
+                                    {"r = 7", 7, {0.2, 0.3, 0}},
+                                    {"r = 2.001", 2.001, {0, 0.3, 0}},
+                                    {"r = 1", 1, {0, 0, 0}}}};
 
 void find_images(benchmark::State& bench) {
   const Place& place = kPlaces[static_cast<std::size_t>(bench.range(0))];

@@ -85,15 +85,16 @@ TEST(RadialInfall, CrossesFromRegionOneToTwo) {
 }
 
 TEST(GivenVelocity, ComposesTheFrameAndTheSpeed) {
-  const V3d frame = resting_celerity(10);
+  const auto frame = resting_celerity(10);
   for (const V3d& d : {V3d(1, 0, 0), V3d(0, 0.6, 0.8), V3d(-1, 0, 0)}) {
-    const V3d u = celerity_against(frame, d * 2.0);
+    const V3d u = celerity_against(frame, Celerity<RestFrame>(d * 2.0));
     EXPECT_NEAR(relative_gamma(u, frame), std::sqrt(5.0), 1e-13);
   }
 }
 
 TEST(GivenVelocity, MovingInwardAtFreeFallSpeedAgainstTheStaticFrameIsTheRain) {
-  const V3d u = celerity_against(resting_celerity(8), V3d(-std::sqrt(1.0 / 3), 0, 0));
+  const V3d u =
+      celerity_against(resting_celerity(8), Celerity<RestFrame>(-std::sqrt(1.0 / 3), 0, 0));
   EXPECT_LT(u.length(), 1e-15);
 }
 

@@ -98,7 +98,7 @@ Json titles_of(const Show& show) {
 // Returns the speed against an observer at rest, or inside the horizon against one who falls
 // freely.
 double speed_of(const ObserverState& o) {
-  const double celerity = (has_rest(o) ? static_celerity(o) : o.celerity).length();
+  const double celerity = has_rest(o) ? static_celerity(o).length() : o.celerity.length();
   return celerity / std::hypot(1.0, celerity);
 }
 

@@ -10,14 +10,6 @@
 namespace domefall {
 namespace {
 
-// Turns gamma v against the outgoing frame into gamma v against rain, for r > 2.  The two frames
-// move at s and -s against the static one, so they recede from each other at 2s/(1 + s^2).  The
-// gamma of this velocity is (1 + s^2)/(1 - s^2).
-V3d in_rain(const V3d& c, double s) {
-  const double below = (1 - s) * (1 + s), gamma = std::sqrt(1 + c.length2());
-  return {((1 + s * s) * c.x + 2 * s * gamma) / below, c.y, c.z};
-}
-
 // This is the plane of R and c, in which the angle of a direction is measured from R.
 struct Plane {
   double gamma, radial, across, s;
@@ -45,8 +37,8 @@ std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky,
     return ShiftRange{hole / (gamma + speed), hole * (gamma + speed)};
   }
   const double s = o.spacetime.free_fall_speed(o.r);
-  const V3d c = is_outgoing(o.tetrad) ? in_rain(o.celerity, s) : o.celerity;
-  const Plane plane{std::sqrt(1 + c.length2()), c.x, std::hypot(c.y, c.z), s};
+  const auto c = rain_celerity(o.spacetime, o.r, o.tetrad, o.celerity);
+  const Plane plane{gamma_of(c), c.x, std::hypot(c.y, c.z), s};
   // The own sky of the tetrad extends from R to the silhouette, and the other one from its edge to
   // -R.
   const double edge = std::numbers::pi - (own ? silhouette_edge(o.r) : region_three_edge(o.r));

@@ -137,7 +137,7 @@ void ViewTracer::into_frame(const CameraDirection* n, int count, FrameRayBatch& 
 ViewCurve ViewTracer::seen(const ViewCurve& curve) const {
   const V3d& celerity = viewer_.celerity;
   if (const auto* circle = std::get_if<ViewCircle>(&curve)) {
-    const double gamma = std::sqrt(1 + celerity.length2()), along = celerity.dot(circle->axis);
+    const double gamma = gamma_of(celerity), along = celerity.dot(circle->axis);
     const double time = gamma * circle->cosine + along;
     const V3d space = circle->axis + celerity * (along / (gamma + 1) + circle->cosine);
     const double length = space.length();

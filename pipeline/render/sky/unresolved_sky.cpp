@@ -40,7 +40,7 @@ class UnresolvedSkyFinder {
         observer_(scene.state.observer),
         viewer_(scene.tracer.viewer()),
         to_observer_(-viewer_.celerity),
-        to_measured_(-viewer_.measured.value_or(V3d(0, 0, 0))),
+        to_measured_(-viewer_.measured.value_or(Celerity<RestFrame>())),
         pixel_(largest_pixel_angle(scene.projection())) {}
 
   // Looks for a sky that lensing crowds around `toward`, a direction in the observer's tetrad.

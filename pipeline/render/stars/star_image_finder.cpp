@@ -91,9 +91,9 @@ StarImageFinder::StarImageFinder(const FrameScene& scene, SkyRegion sky)
       observer_(scene.state.observer),
       viewer_(scene.tracer.viewer()),
       from_tetrad_(-viewer_.celerity),
-      to_measured_(-viewer_.measured.value_or(V3d(0, 0, 0))),
+      to_measured_(-viewer_.measured.value_or(Celerity<RestFrame>())),
       peak_per_lux_(peak_per_lux(scene.exposure, scene.point_spread)),
-      stretch_(std::sqrt(1 + viewer_.celerity.length2()) + viewer_.celerity.length()),
+      stretch_(gamma_of(viewer_.celerity) + viewer_.celerity.length()),
       // The loops know all effects of nature and nothing else.
       in_batches_(scene.tracer.lens()->frame() == V3d(0, 0, 0) && scene.effects.intensity &&
                   scene.effects.doppler_colour &&

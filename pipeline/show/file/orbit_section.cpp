@@ -212,7 +212,7 @@ std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage,
   // A throw against the static observer is given as it is.  A throw against another one, whose
   // celerity against the rain is known, is brought to the rain.
   const bool against_static = frame->region != Region::kII && frame->celerity.length2() > 0;
-  const V3d celerity = against_static ? *own : celerity_against(frame->celerity, *own);
+  const V3d celerity = against_static ? V3d(*own) : V3d(celerity_against(frame->celerity, *own));
   // The plane of the orbit is that of R and the celerity, so only the length of the part across R
   // shapes the orbit.  Its direction turns the plane (placement_of).
   const double across = std::hypot(celerity.y, celerity.z);

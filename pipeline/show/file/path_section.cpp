@@ -14,13 +14,9 @@ namespace {
 constexpr std::array<Tetrad, 4> kTetrads{Tetrad::kRain, Tetrad::kOutgoing, Tetrad::kRainOfThree,
                                          Tetrad::kOutgoingToThree};
 
-// Sets dr/dtau and dphi/dtau from a celerity c against a tetrad, with u = gamma T + c.  Along the T
-// of rain dr/dtau is -sqrt(2/r), and along that of the outgoing tetrad +sqrt(2/r), so that dr/dtau
-// is c_R - sqrt(2/r) gamma against rain and c_R + sqrt(2/r) gamma against outgoing.  Phi is (1/r)
-// d/dphi in the plane of the path, so that dphi/dtau is c_Phi/r.
-void set_rates(PathKey& key, const V3d& celerity, Tetrad tetrad) {
-  const double gamma = std::sqrt(1 + celerity.length2()), s = Schwarzschild::free_fall_speed(key.r);
-  key.radial_rate = celerity.x + (is_outgoing(tetrad) ? s * gamma : -s * gamma);
+// Phi is (1/r) d/dphi in the plane of the path.
+void set_rates(PathKey& key, const Celerity<ReferenceTetrad>& celerity, Tetrad tetrad) {
+  key.radial_rate = radial_rate(Schwarzschild{}, key.r, tetrad, celerity);
   key.azimuth_rate = celerity.z / key.r;
 }
 

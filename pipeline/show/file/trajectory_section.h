@@ -122,8 +122,8 @@ std::optional<GivenVelocity> read_frame(const Section& s, const Stage& stage,
 // Reads gamma v against the observer `frame`, along the axes of frame.tetrad, from `speed` or
 // `lorentz_factor` and `direction`.  A direction that is a place on the sky is the one in which
 // that observer sees its primary image, so that the place lies dead ahead.
-std::optional<V3d> read_own_celerity(const Section& s, const Stage& stage,
-                                     const GivenVelocity& frame, Lookup& lookup);
+std::optional<Celerity<GivenFrame>> read_own_celerity(const Section& s, const Stage& stage,
+                                                      const GivenVelocity& frame, Lookup& lookup);
 
 // Reads a trajectory that holds such a velocity, or one that goes evenly in rapidity from one speed
 // to another within the segment.

@@ -180,14 +180,14 @@ std::optional<GivenVelocity> read_frame(const Section& s, const Stage& stage,
   return frame;
 }
 
-std::optional<V3d> read_own_celerity(const Section& s, const Stage& stage,
-                                     const GivenVelocity& frame, Lookup& lookup) {
+std::optional<Celerity<GivenFrame>> read_own_celerity(const Section& s, const Stage& stage,
+                                                      const GivenVelocity& frame, Lookup& lookup) {
   const auto gamma_v = read_gamma_v(s);
-  if (gamma_v && *gamma_v == 0 && !s.find("direction")) return V3d(0, 0, 0);
+  if (gamma_v && *gamma_v == 0 && !s.find("direction")) return Celerity<GivenFrame>();
   const Item* item = require_direction(s);
   const auto direction = item ? read_direction(*item, stage, frame, lookup) : std::nullopt;
   if (!gamma_v || !direction) return std::nullopt;
-  return *direction * *gamma_v;
+  return Celerity<GivenFrame>(*direction * *gamma_v);
 }
 
 std::optional<Trajectory> read_velocity_trajectory(const Section& s, const Stage& stage,

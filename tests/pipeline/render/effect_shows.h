@@ -41,12 +41,12 @@ inline std::vector<Trajectory> observers() {
           RadialInfall{2},
           RadialInfall{1.2},
           RadialInfall{0.05},
-          GivenVelocity{Region::kI, Tetrad::kRain, 30, V3d(300, -800, 500)},
-          GivenVelocity{Region::kI, Tetrad::kOutgoing, 5, V3d(1, 2, 3)},
-          GivenVelocity{Region::kII, Tetrad::kRain, 1.3, V3d(0, 1e4, 0)},
-          GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, V3d(2, 0, 1)},
-          GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.2, V3d(0, 1, 0)},
-          GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)}};
+          GivenVelocity{Region::kI, Tetrad::kRain, 30, {300, -800, 500}},
+          GivenVelocity{Region::kI, Tetrad::kOutgoing, 5, {1, 2, 3}},
+          GivenVelocity{Region::kII, Tetrad::kRain, 1.3, {0, 1e4, 0}},
+          GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, {2, 0, 1}},
+          GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.2, {0, 1, 0}},
+          GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, {0, 1, 2}}};
 }
 
 // Combinations of effects.  Only outside the horizon can lensing be left out.

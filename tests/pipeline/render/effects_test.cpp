@@ -17,8 +17,9 @@ const V3d kAhead(0, 0, 1);  // along Phi
 // ahead (1) or back (-1).
 Show ship(const Effects& effects, double speed = kV, double facing = 1) {
   const double c = speed / std::sqrt(1 - speed * speed);
-  Show show = show_of(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, kAhead * c},
-                      Stereographic{96, 72, 90 * kDegree});
+  Show show = show_of(
+      GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, Celerity<ReferenceTetrad>(kAhead * c)},
+      Stereographic{96, 72, 90 * kDegree});
   show.effects = effects;
   // Phi, Theta and back: Z along +-Phi.
   show.timeline[0].camera.attitude = EulerAngles{90 * kDegree, facing * 90 * kDegree, 0};

@@ -95,7 +95,7 @@ TEST(Effects, StarsAndBackgroundsObeyTheSameOptions) {
   std::mt19937 random(5);
   const Trajectory orbit = CircularOrbit{6};
   for (const Trajectory& t :
-       {orbit, Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)})})
+       {orbit, Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, {0, 1, 2}})})
     for (const Effects& effects : combinations(true)) {
       Show show = show_of(t, Stereographic{2000, 2000, 300 * kDegree});
       show.effects = effects;

@@ -176,8 +176,7 @@ struct MadeUpScene {
 
 constexpr int kSize = 192;
 Show moving_show() {
-  return show_of(GivenVelocity{Region::kI, Tetrad::kRain, 8, V3d(0.2, -0.3, 0.15)},
-                 Domemaster{kSize});
+  return show_of(GivenVelocity{Region::kI, Tetrad::kRain, 8, {0.2, -0.3, 0.15}}, Domemaster{kSize});
 }
 
 // Pixels are held against the mean of the light of many closed-form rays.  A pixel on a line of a grid

@@ -110,7 +110,7 @@ TEST(Renderer, ReadsNoFileThatAFrameDoesNotShow) {
 TEST(Renderer, TracesNoRayWhereAllIsDark) {
   // An observer in region IV sees the past singularity in every direction, which is black here.
   Show show = starry(
-      show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.0, V3d(0, 0, 0)}, Domemaster{128}));
+      show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.0, {0, 0, 0}}, Domemaster{128}));
   show.sky[SkyRegion::kI].stars = show.sky[SkyRegion::kIII].stars =
       StarField{"no/such/catalogue.csv", 6.5};
   StageTimes times;
@@ -156,14 +156,14 @@ TEST(Renderer, HasNoPixelThatIsNotFinite) {
        {Trajectory(StaticObserver{2.0000001}), Trajectory(StaticObserver{1e8}),
         Trajectory(CircularOrbit{3.0000001}), Trajectory(RadialInfall{1e-6}),
         Trajectory(RadialInfall{2.0}), Trajectory(RadialInfall{1.9999999}),
-        Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, 30, V3d(-1e9, 0, 0)}),
-        Trajectory(GivenVelocity{Region::kII, Tetrad::kRain, 0.3, V3d(0, 1e6, 0)}),
-        Trajectory(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1e-6, V3d(0, 0, 0)}),
-        Trajectory(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.998, V3d(0, 1e6, 0)}),
-        Trajectory(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 2, V3d(0, 0, 0)}),
-        Trajectory(GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 2.001, V3d(0, 0, 0)}),
-        Trajectory(GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.0000001, V3d(-1e6, 0, 0)}),
-        Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1e9, 0)})}) {
+        Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, 30, {-1e9, 0, 0}}),
+        Trajectory(GivenVelocity{Region::kII, Tetrad::kRain, 0.3, {0, 1e6, 0}}),
+        Trajectory(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1e-6, {0, 0, 0}}),
+        Trajectory(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.998, {0, 1e6, 0}}),
+        Trajectory(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 2, {0, 0, 0}}),
+        Trajectory(GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 2.001, {0, 0, 0}}),
+        Trajectory(GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.0000001, {-1e6, 0, 0}}),
+        Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, {0, 1e9, 0}})}) {
     for (const bool grid : {false, true}) {
       Show show = starry(show_of(trajectory, Domemaster{tries(48, 24)}));
       if (grid)

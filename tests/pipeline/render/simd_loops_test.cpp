@@ -129,11 +129,11 @@ std::vector<Trajectory> loop_trajectories() {
           CircularOrbit{6},
           RadialInfall{1.2},
           RadialInfall{0.05},
-          GivenVelocity{Region::kI, Tetrad::kRain, 30, V3d(300, -800, 500)},
-          GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.01, V3d(0, 0, 0)},
-          GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, V3d(2, 0, 0)},
-          GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.2, V3d(0, 0, 0)},
-          GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)}};
+          GivenVelocity{Region::kI, Tetrad::kRain, 30, {300, -800, 500}},
+          GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.01, {0, 0, 0}},
+          GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, {2, 0, 0}},
+          GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.2, {0, 0, 0}},
+          GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, {0, 1, 2}}};
 }
 
 Bytes rays_of(const ViewTracer& tracer, const std::vector<CameraDirection>& n) {

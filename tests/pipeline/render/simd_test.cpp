@@ -99,17 +99,17 @@ std::vector<std::pair<std::string, Show>> scenes(const Projection& projection) {
       {"1.2 M, both skies", with(RadialInfall{1.2}, colour, thermal, black)},
       {"0.1 M, both skies", with(RadialInfall{0.1}, thermal, colour, black)},
       {"flat space", with(StaticObserver{}, colour, black, black)},
-      {"flat space, brisk", with(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)},
+      {"flat space, brisk", with(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, {0, 1, 2}},
                                  thermal, black, black)},
       {"far away", with(StaticObserver{1e4}, thermal, black, black)},
       {"fast",
-       with(GivenVelocity{Region::kI, Tetrad::kRain, 8, V3d(-30, 40, 5)}, colour, black, black)},
-      {"region III", with(GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, V3d(2, 0, 0)}, black,
-                          colour, grid)},
+       with(GivenVelocity{Region::kI, Tetrad::kRain, 8, {-30, 40, 5}}, colour, black, black)},
+      {"region III",
+       with(GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, {2, 0, 0}}, black, colour, grid)},
       {"region IV, grid",
-       with(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.7, V3d(0, 0, 0)}, grid, grid, grid)},
-      {"region IV, rings", with(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.5, V3d(0, 1, 0)},
-                                grid, grid, RingsSky{})}};
+       with(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.7, {0, 0, 0}}, grid, grid, grid)},
+      {"region IV, rings", with(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.5, {0, 1, 0}}, grid,
+                                grid, RingsSky{})}};
 }
 
 Bytes bytes_of_frame(const Show& show) {

@@ -263,7 +263,7 @@ TEST_F(FrameStates, ASidewaysMotionTurnsSmoothlyThroughTheHorizon) {
     ObserverState o;
     o.spacetime = Schwarzschild{};
     o.r = 2 + k * 1e-4;
-    o.celerity = V3d(-0.3, 0.2, 0.7);
+    o.celerity = {-0.3, 0.2, 0.7};
     const V3d now = motion_direction(o).normalized();
     if (k > -50) expect_close(now, last, 1e-4);  // the derivative by r is below 1
     last = now;
@@ -276,7 +276,7 @@ TEST_F(FrameStates, MotionIsTheVelocityAgainstTheStaticFrame) {
       ObserverState o;
       o.spacetime = Schwarzschild{};
       o.r = r;
-      o.celerity = celerity_against(resting_celerity(r), direction * 0.98);
+      o.celerity = celerity_against(resting_celerity(r), Celerity<RestFrame>(direction * 0.98));
       // The static observer sees its own motion's goal at `direction`; the mover sees it dead
       // ahead.
       const V3d goal = to_tetrad(resting_celerity(r), direction).direction;

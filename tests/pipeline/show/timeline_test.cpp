@@ -253,7 +253,7 @@ TEST_F(Timelines, PathsAreFlownThroughTheirKeys) {
   // The velocities are at rest and at 0.3 c against the static observer there.
   const auto speed = [&](double t) {
     const ObserverState o = at(s, t);
-    const V3d v = celerity_against(-resting_celerity(o.r), o.celerity);
+    const V3d v = celerity_against(Celerity<RestFrame>(-resting_celerity(o.r)), o.celerity);
     return v.length() / std::sqrt(1 + v.length2());
   };
   EXPECT_NEAR(speed(0), 0, 1e-12);

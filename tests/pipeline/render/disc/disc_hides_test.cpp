@@ -8,7 +8,7 @@ namespace domefall {
 namespace {
 
 DiscView usual_view(double opacity) {
-  DiscView view{{Region::kI, Tetrad::kRain, 30, V3d(0.1, 0.2, 0)}, normal_seen_from(12), Disc{}};
+  DiscView view{{Region::kI, Tetrad::kRain, 30, {0.1, 0.2, 0}}, normal_seen_from(12), Disc{}};
   view.disc.opacity = opacity;
   return view;
 }

@@ -81,14 +81,14 @@ TEST(DiscLight, IsKeptWithinTheDisc) {
 }
 
 TEST(DiscLight, IsKeptForFastObservers) {
-  expect_all_light({{kI, kRain, 25, V3d(0.5, 0.8, -1)}, V3d(0.3, -0.8, 0.4), ring(6, 20, 0.9)},
+  expect_all_light({{kI, kRain, 25, {0.5, 0.8, -1}}, V3d(0.3, -0.8, 0.4), ring(6, 20, 0.9)},
                    Equirectangular{512}, kOfTheSphere);
 }
 
 TEST(DiscLight, IsKeptBetweenDiscAndHoleAndBehindTheHorizon) {
   for (const double r : {4.0, 2.0, 1.0, 0.8})
     expect_all_light(
-        {{r > 2 ? kI : Region::kII, kRain, r, V3d(0, 0, 0)}, V3d(0.5, -1, 0), ring(6, 20, 0.9)},
+        {{r > 2 ? kI : Region::kII, kRain, r, {0, 0, 0}}, V3d(0.5, -1, 0), ring(6, 20, 0.9)},
         Equirectangular{512}, kOfTheSphere);
 }
 

@@ -82,14 +82,14 @@ std::vector<DiscView> twenty_views() {
   views.push_back({{kI, kRain, 15, celerity_of_rest(15)}, normal_seen_from(0.05), usual});
   views.push_back({{kI, kRain, 4, celerity_of_rest(4)}, normal_seen_from(0), usual});
   for (const double r : {4.0, 3.0, 2.5, 2.05})
-    views.push_back({{kI, kRain, r, V3d(0, 0, 0)}, random_direction(random), thin});
+    views.push_back({{kI, kRain, r, {0, 0, 0}}, random_direction(random), thin});
   const Disc falling = disc_from(2.5, 12, 0.7, true);
   for (const double r : {1.9, 1.0, 0.4})
-    views.push_back({{kII, kRain, r, V3d(0, 0, 0)}, random_direction(random), falling});
-  views.push_back({{kI, kRain, 12, V3d(0.4, -0.2, 0.5)}, V3d(0.3, -1, 0), usual});
-  views.push_back({{kI, kRain, 10, V3d(3, 1, -2)}, V3d(0.01, -1, 0), disc_from(6, 30, 0.6)});
-  views.push_back({{kI, kOut, 10, V3d(-0.5, 0.3, 0.1)}, V3d(0.7, 0.7, 0.1), usual});
-  views.push_back({{kI, kOut, 2.5, V3d(0.1, 0, 0.2)}, V3d(-0.5, 0.7, 0.1), falling});
+    views.push_back({{kII, kRain, r, {0, 0, 0}}, random_direction(random), falling});
+  views.push_back({{kI, kRain, 12, {0.4, -0.2, 0.5}}, V3d(0.3, -1, 0), usual});
+  views.push_back({{kI, kRain, 10, {3, 1, -2}}, V3d(0.01, -1, 0), disc_from(6, 30, 0.6)});
+  views.push_back({{kI, kOut, 10, {-0.5, 0.3, 0.1}}, V3d(0.7, 0.7, 0.1), usual});
+  views.push_back({{kI, kOut, 2.5, {0.1, 0, 0.2}}, V3d(-0.5, 0.7, 0.1), falling});
   return views;
 }
 
@@ -149,10 +149,12 @@ TEST(DiscPixels, AreThoseOfTheRaysInTwentyViews) {
 TEST(DiscPixels, AreTheSameInBothFramesOfReference) {
   const Disc disc = disc_from(6, 20, 0.8);
   for (const double r : {12.0, 3.5}) {
-    const V3d rest = celerity_of_rest(r);
+    const auto rest = celerity_of_rest(r);
     const Projection projection = Equirectangular{128};
     const DiscView falling{{Region::kI, Tetrad::kRain, r, rest}, normal_seen_from(25), disc};
-    const DiscView rising{{Region::kI, Tetrad::kOutgoing, r, -rest}, normal_seen_from(25), disc};
+    const DiscView rising{{Region::kI, Tetrad::kOutgoing, r, Celerity<ReferenceTetrad>(-rest)},
+                          normal_seen_from(25),
+                          disc};
     const FloatImage a = render_floats(disc_show(falling, projection)),
                      b = render_floats(disc_show(rising, projection));
     float brightest = 0;
@@ -167,9 +169,8 @@ TEST(DiscPixels, AreTheSameInBothFramesOfReference) {
 // A disc of region I sends no light to region III, and none to region IV.
 TEST(DiscPixels, AreDarkWhereTheDiscIsNotSeen) {
   const Disc disc = disc_from(6, 20, 1);
-  const std::vector<GivenVelocity> observers{
-      {Region::kIII, Tetrad::kRainOfThree, 9, V3d(0.1, 0, 0.3)},
-      {Region::kIV, Tetrad::kOutgoing, 1.2, V3d(0, 0.2, 0)}};
+  const std::vector<GivenVelocity> observers{{Region::kIII, Tetrad::kRainOfThree, 9, {0.1, 0, 0.3}},
+                                             {Region::kIV, Tetrad::kOutgoing, 1.2, {0, 0.2, 0}}};
   for (const GivenVelocity& at : observers) {
     const FloatImage frame = render_floats(
         disc_show({at, normal_seen_from(30), disc}, Stereographic{48, 32, 150 * kDegree}));
@@ -181,7 +182,7 @@ TEST(DiscPixels, AreDarkWhereTheDiscIsNotSeen) {
 // fallen from either.
 TEST(DiscPixels, AreTheSameToWhoIsSaidToFallFromTheOtherSide) {
   constexpr double kR = 0.8;
-  const V3d rest(1 / std::sqrt(2 / kR - 1), 0, 0);
+  const Celerity<ReferenceTetrad> rest(1 / std::sqrt(2 / kR - 1), 0, 0);
   const auto light = [&](Tetrad tetrad) {
     const Show show =
         disc_show({{Region::kII, tetrad, kR, rest}, V3d(0.4, -1, 0), disc_from(6, 20, 1)},
@@ -194,10 +195,9 @@ TEST(DiscPixels, AreTheSameToWhoIsSaidToFallFromTheOtherSide) {
 }
 
 TEST(DiscPixels, AreTheSameBytesForAnyNumberOfThreads) {
-  const Show show = disc_show({{Region::kI, Tetrad::kRain, 9, V3d(0.2, 0.1, 0.4)},
-                               normal_seen_from(3),
-                               disc_from(6, 20, 0.9)},
-                              Domemaster{tries(160, 64)});
+  const Show show = disc_show(
+      {{Region::kI, Tetrad::kRain, 9, {0.2, 0.1, 0.4}}, normal_seen_from(3), disc_from(6, 20, 0.9)},
+      Domemaster{tries(160, 64)});
   const FloatImage alone = render_floats(show, 1);
   for (const int threads : {2, 5}) EXPECT_EQ(alone.pixels, render_floats(show, threads).pixels);
 }

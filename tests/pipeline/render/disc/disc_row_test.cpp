@@ -47,12 +47,12 @@ std::vector<DiscView> views() {
   return {{{kI, kRain, 15, celerity_of_rest(15)}, normal_seen_from(10), disc_of(1)},
           {{kI, kRain, 40, celerity_of_rest(40)}, normal_seen_from(80), disc_of(0.6)},
           {{kI, kRain, 30, celerity_of_rest(30)}, normal_seen_from(0.3), disc_of(0.8)},
-          {{kI, kRain, 12, V3d(0.4, -0.2, 0.5)}, normal_seen_from(1), disc_of(1)},
+          {{kI, kRain, 12, {0.4, -0.2, 0.5}}, normal_seen_from(1), disc_of(1)},
           {{kI, kRain, 9, celerity_of_rest(9)}, normal_seen_from(0), disc_of(1)},
-          {{kI, kRain, 4, V3d(0, 0, 0)}, V3d(0.3, -1, 0.2), disc_of(0.5)},
-          {{Region::kII, kRain, 1, V3d(0, 0.3, 0)}, V3d(0.1, -1, 0.4), disc_of(0.7, true)},
-          {{kI, Tetrad::kOutgoing, 10, V3d(-0.5, 0.3, 0.1)}, V3d(0.7, 0.7, 0.1), disc_of(1)},
-          {{kI, kRain, 25, V3d(1.5, 1.2, -2)}, V3d(0.3, -0.8, 0.4), disc_of(0.9)}};
+          {{kI, kRain, 4, {0, 0, 0}}, V3d(0.3, -1, 0.2), disc_of(0.5)},
+          {{Region::kII, kRain, 1, {0, 0.3, 0}}, V3d(0.1, -1, 0.4), disc_of(0.7, true)},
+          {{kI, Tetrad::kOutgoing, 10, {-0.5, 0.3, 0.1}}, V3d(0.7, 0.7, 0.1), disc_of(1)},
+          {{kI, kRain, 25, {1.5, 1.2, -2}}, V3d(0.3, -0.8, 0.4), disc_of(0.9)}};
 }
 
 TEST(DiscRow, IsThatOfItsPixels) {

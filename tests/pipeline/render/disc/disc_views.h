@@ -23,7 +23,7 @@ inline V3d normal_seen_from(double degrees) {
 }
 
 // How fast one who rests at r > 2 moves against radial free fall there.
-inline V3d celerity_of_rest(double r) {
+inline Celerity<ReferenceTetrad> celerity_of_rest(double r) {
   const double s = std::sqrt(2 / r);
   return {s / std::sqrt(1 - s * s), 0, 0};
 }

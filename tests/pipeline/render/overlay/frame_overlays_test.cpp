@@ -77,7 +77,7 @@ TEST(FrameMarks, OfAFlatImageAreFrames) {
 TEST(FrameMarks, OfTheHoleAreDrawnWhereItIs) {
   for (const OverlayKind overlay : {OverlayKind::kSilhouette, OverlayKind::kEinsteinRing}) {
     const Show show = overlaid(overlay, Domemaster{256},
-                               GivenVelocity{Region::kI, Tetrad::kRain, 8, V3d(0, 0.5, 0)});
+                               GivenVelocity{Region::kI, Tetrad::kRain, 8, {0, 0.5, 0}});
     const FrameState state = frame_state(show, 0);
     const ViewTracer tracer(state, WantedSkies{});
     const ViewCircle c =
@@ -172,14 +172,13 @@ TEST_F(StarLabelImages, LieWhereTheRendererDrawsTheStar) {
       "70,20,1,0.3,,beta Two\n"
       "71,20,5,0.3,Faint,\n");
   for (const auto& [observer, effects] :
-       {std::pair{GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)}, Effects{}},
-        {GivenVelocity{Region::kII, Tetrad::kRain, 1.7, V3d(0, 0.2, 0)}, Effects{}},
-        {GivenVelocity{Region::kI, Tetrad::kOutgoing, 9, V3d(0.1, 0, 0.2)}, Effects{}},
-        {GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)},
+       {std::pair{GivenVelocity{Region::kI, Tetrad::kRain, 12, {0.1, 0.3, 0.5}}, Effects{}},
+        {GivenVelocity{Region::kII, Tetrad::kRain, 1.7, {0, 0.2, 0}}, Effects{}},
+        {GivenVelocity{Region::kI, Tetrad::kOutgoing, 9, {0.1, 0, 0.2}}, Effects{}},
+        {GivenVelocity{Region::kI, Tetrad::kRain, 12, {0.1, 0.3, 0.5}},
          Effects{.aberration = false}},
-        {GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)},
-         Effects{.lensing = false}},
-        {GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)},
+        {GivenVelocity{Region::kI, Tetrad::kRain, 12, {0.1, 0.3, 0.5}}, Effects{.lensing = false}},
+        {GivenVelocity{Region::kI, Tetrad::kRain, 12, {0.1, 0.3, 0.5}},
          Effects{.intensity = false, .amplification = Amplification::kNone}},
         {GivenVelocity{}, Effects{}}}) {
     Show show = show_of(observer, Domemaster{256});
@@ -212,8 +211,7 @@ class StarLabelLight : public StarLabelImages {
  protected:
   StarLabelLight() {
     put(folder_ / "one.csv", "ra_deg,dec_deg,v_mag,b_v,name\n250,-20,1,0.3,Near\n");
-    show_ =
-        show_of(GivenVelocity{Region::kI, Tetrad::kRain, 12, V3d(0.1, 0.3, 0.5)}, Domemaster{256});
+    show_ = show_of(GivenVelocity{Region::kI, Tetrad::kRain, 12, {0.1, 0.3, 0.5}}, Domemaster{256});
     show_.overlays = {OverlayKind::kStarNames};
     show_.sky[SkyRegion::kI].stars = StarField{folder_ / "one.csv", 9};
     show_.sky[SkyRegion::kIII] = show_.sky[SkyRegion::kI];

@@ -24,7 +24,7 @@ TEST(Amplification, OfSmallImagesIsTheInverseOfTheJacobian) {
   std::mt19937 random(11);
   for (const Trajectory& t :
        {Trajectory(StaticObserver{30}), Trajectory(CircularOrbit{6}), Trajectory(RadialInfall{1.2}),
-        Trajectory(GivenVelocity{Region::kI, Tetrad::kOutgoing, 5, V3d(1, 2, 3)})}) {
+        Trajectory(GivenVelocity{Region::kI, Tetrad::kOutgoing, 5, {1, 2, 3}})}) {
     const Scene30 scene(t);
     int seen = 0;
     for (int k = 0; k < 500; ++k) {
@@ -88,7 +88,7 @@ TEST(Amplification, AccountsForTheWholeSkyAcrossTheEinsteinRing) {
 // The same holds for the pixels of a dome.  At half the speed of light the half sphere ahead, 2 pi,
 // holds 3 pi of the sky, since cos alpha = -v at its rim.
 TEST(Amplification, AccountsForTheSkyOnADomeWithAberration) {
-  const GivenVelocity half{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 0, 0.5 / std::sqrt(0.75))};
+  const GivenVelocity half{Region::kI, Tetrad::kRain, kFlatSpace, {0, 0, 0.5 / std::sqrt(0.75)}};
   Scene30 scene(half, Domemaster{256});
   scene.show.timeline[0].camera.attitude = LookAlongMotion{};
   scene.show.timeline[0].camera.elevation = 90 * kDegree;

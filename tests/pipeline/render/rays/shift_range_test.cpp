@@ -18,17 +18,17 @@ struct Observed {
   Region region;
   Tetrad tetrad;
   double r;
-  V3d celerity;
+  Celerity<ReferenceTetrad> celerity;
 };
 TEST(FrequencyRange, IsThatOfManyViewRays) {
   for (const Observed& c :
        {Observed{"rest", Region::kI, Tetrad::kRain, 5, resting_celerity(5)},
-        Observed{"rain", Region::kI, Tetrad::kRain, 3, V3d(0, 0, 0)},
-        Observed{"sideways", Region::kI, Tetrad::kRain, 3, V3d(0.2, -0.3, 0.9)},
-        Observed{"outgoing", Region::kI, Tetrad::kOutgoing, 4, V3d(0.1, 0.2, 0.5)},
-        Observed{"inside", Region::kII, Tetrad::kRain, 1.2, V3d(0.3, 0.1, 0.6)},
-        Observed{"of three", Region::kIII, Tetrad::kRainOfThree, 6, V3d(-0.3, 0.5, 0)},
-        Observed{"fast", Region::kI, Tetrad::kRain, 2.5, V3d(-3, 0, 4)}}) {
+        Observed{"rain", Region::kI, Tetrad::kRain, 3, {0, 0, 0}},
+        Observed{"sideways", Region::kI, Tetrad::kRain, 3, {0.2, -0.3, 0.9}},
+        Observed{"outgoing", Region::kI, Tetrad::kOutgoing, 4, {0.1, 0.2, 0.5}},
+        Observed{"inside", Region::kII, Tetrad::kRain, 1.2, {0.3, 0.1, 0.6}},
+        Observed{"of three", Region::kIII, Tetrad::kRainOfThree, 6, {-0.3, 0.5, 0}},
+        Observed{"fast", Region::kI, Tetrad::kRain, 2.5, {-3, 0, 4}}}) {
     FrameState state;
     state.observer.spacetime = Schwarzschild{};
     state.observer.region = c.region, state.observer.tetrad = c.tetrad;

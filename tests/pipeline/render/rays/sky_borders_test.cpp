@@ -14,13 +14,13 @@ FrameState view_of(const GivenVelocity& at, const Projection& projection) {
 const WantedSkies kAllSkies{{true, true, true}};
 
 const std::vector<GivenVelocity> kObservers{
-    {Region::kI, Tetrad::kRain, 30, V3d(0, 0, 0)},
-    {Region::kI, Tetrad::kRain, 6, V3d(0.2, 0.6, 0.3)},
-    {Region::kI, Tetrad::kRain, 2.5, V3d(-0.5, 1, 0.5)},
-    {Region::kI, Tetrad::kOutgoing, 5, V3d(1, 2, 3)},
-    {Region::kII, Tetrad::kRain, 1.2, V3d(0, 0.5, 0)},
-    {Region::kII, Tetrad::kRain, 0.3, V3d(0.3, 0, -1)},
-    {Region::kIII, Tetrad::kRainOfThree, 4, V3d(0.5, 0, 0)},
+    {Region::kI, Tetrad::kRain, 30, {0, 0, 0}},
+    {Region::kI, Tetrad::kRain, 6, {0.2, 0.6, 0.3}},
+    {Region::kI, Tetrad::kRain, 2.5, {-0.5, 1, 0.5}},
+    {Region::kI, Tetrad::kOutgoing, 5, {1, 2, 3}},
+    {Region::kII, Tetrad::kRain, 1.2, {0, 0.5, 0}},
+    {Region::kII, Tetrad::kRain, 0.3, {0.3, 0, -1}},
+    {Region::kIII, Tetrad::kRainOfThree, 4, {0.5, 0, 0}},
 };
 
 // Rays that are traced tell the same: a whole pixel away from the borders all of a pixel sees a sky

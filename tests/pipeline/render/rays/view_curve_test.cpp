@@ -32,12 +32,12 @@ struct CirclePlace {
 
 const CirclePlace kPlaces[] = {
     {"at rest outside", {Region::kI, Tetrad::kRain, 8, resting_celerity(8)}, 1},
-    {"in motion", {Region::kI, Tetrad::kRain, 5, V3d(0.4, -0.9, 0.6)}, 1},
-    {"within the light circle", {Region::kI, Tetrad::kRain, 2.4, V3d(0.1, 0, 0.3)}, 1},
-    {"on the way out", {Region::kI, Tetrad::kOutgoing, 4, V3d(0.3, 0.2, 0)}, 1},
-    {"inside", {Region::kII, Tetrad::kRain, 1.2, V3d(0.1, 0.5, 0.2)}, 2},
-    {"inside from the other side", {Region::kII, Tetrad::kRainOfThree, 0.7, V3d(0, 0.4, 0)}, 2},
-    {"in the second universe", {Region::kIII, Tetrad::kRainOfThree, 6, V3d(0, 0, 0.4)}, 1},
+    {"in motion", {Region::kI, Tetrad::kRain, 5, {0.4, -0.9, 0.6}}, 1},
+    {"within the light circle", {Region::kI, Tetrad::kRain, 2.4, {0.1, 0, 0.3}}, 1},
+    {"on the way out", {Region::kI, Tetrad::kOutgoing, 4, {0.3, 0.2, 0}}, 1},
+    {"inside", {Region::kII, Tetrad::kRain, 1.2, {0.1, 0.5, 0.2}}, 2},
+    {"inside from the other side", {Region::kII, Tetrad::kRainOfThree, 0.7, {0, 0.4, 0}}, 2},
+    {"in the second universe", {Region::kIII, Tetrad::kRainOfThree, 6, {0, 0, 0.4}}, 1},
 };
 
 double angle_from(const ViewCircle& circle, const CameraDirection& n) {
@@ -112,7 +112,7 @@ TEST(EinsteinCircles, AreFarAwayAsDeflectionsAreWeak) {
 
 TEST(ViewCircles, AreNoneWhereNoSkyIsSeenAndInFlatSpace) {
   for (const auto& observer :
-       {GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.2, V3d(0, 0.3, 0)}, GivenVelocity{}}) {
+       {GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.2, {0, 0.3, 0}}, GivenVelocity{}}) {
     const FrameState state = frame_state(show_of(observer, Domemaster{64}), 0);
     EXPECT_TRUE(circles_of(state, false).empty());
     EXPECT_TRUE(circles_of(state, true).empty());

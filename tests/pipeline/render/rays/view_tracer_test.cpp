@@ -17,16 +17,16 @@ std::vector<Show> tracing_observers() {
           show_of(RadialInfall{2}, dome),
           show_of(RadialInfall{1.2}, dome),
           show_of(RadialInfall{0.05}, dome),
-          show_of(GivenVelocity{Region::kI, Tetrad::kRain, 30, V3d(300, -800, 500)}, dome),
-          show_of(GivenVelocity{Region::kI, Tetrad::kOutgoing, 5, V3d(1, 2, 3)}, dome),
-          show_of(GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.01, V3d(0, 0, 0)}, dome),
-          show_of(GivenVelocity{Region::kII, Tetrad::kRainOfThree, 1.3, V3d(0, 1, 0)}, dome),
-          show_of(GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, V3d(2, 0, 0)}, dome),
-          show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.2, V3d(0, 0, 0)}, dome),
+          show_of(GivenVelocity{Region::kI, Tetrad::kRain, 30, {300, -800, 500}}, dome),
+          show_of(GivenVelocity{Region::kI, Tetrad::kOutgoing, 5, {1, 2, 3}}, dome),
+          show_of(GivenVelocity{Region::kI, Tetrad::kOutgoing, 2.01, {0, 0, 0}}, dome),
+          show_of(GivenVelocity{Region::kII, Tetrad::kRainOfThree, 1.3, {0, 1, 0}}, dome),
+          show_of(GivenVelocity{Region::kIII, Tetrad::kRainOfThree, 4, {2, 0, 0}}, dome),
+          show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 0.2, {0, 0, 0}}, dome),
           show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.99,
                                 resting_celerity(1.99, Tetrad::kOutgoing)},
                   dome),
-          show_of(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)}, dome)};
+          show_of(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, {0, 1, 2}}, dome)};
 }
 
 TEST(ViewTracer, TheBatchTracesAsTheSingleRayIsTraced) {

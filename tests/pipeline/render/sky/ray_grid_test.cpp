@@ -115,7 +115,7 @@ TEST(RayGrid, IsRightToAHundredthOfAPixelAtAnySpeed) {
   for (const double celerity : {0.1, 1.0, 3.1, 30.0, 1e3, 1e6})
     for (const double r : {kFlatSpace, 10.0, 1.0})
       for (const Projection& p : projections()) {
-        const V3d along = V3d(0.3, 1, -0.5).normalized() * celerity;
+        const Celerity<ReferenceTetrad> along(V3d(0.3, 1, -0.5).normalized() * celerity);
         expect_close(
             show_of(GivenVelocity{r < 2 ? Region::kII : Region::kI, Tetrad::kRain, r, along}, p),
             "u = " + std::to_string(celerity) + ", r = " + std::to_string(r));
@@ -173,7 +173,7 @@ TEST(SkyPass, MakesTheFrameThatTracingEveryPixelMakes) {
   for (const Projection& p : projections())
     for (const Trajectory& t :
          {Trajectory(StaticObserver{10}), Trajectory(RadialInfall{1}),
-          Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)})}) {
+          Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, {0, 1, 2}})}) {
       const Show show = without_stars(t, p);
       const FrameState state = frame_state(show, 0);
       const HalfFrame quick = Renderer(show, 2).render(state),
@@ -212,7 +212,7 @@ TEST(SkyPass, MakesTheBordersOfAGridWhereTracingEveryPixelMakesThem) {
   for (const Projection& p : {projections()[0], projections()[3]})
     for (const Trajectory& t :
          {Trajectory(StaticObserver{10}), Trajectory(RadialInfall{1}), Trajectory(CircularOrbit{6}),
-          Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 1, 2)})}) {
+          Trajectory(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, {0, 1, 2}})}) {
       Show show = show_of(t, p);
       show.sky[SkyRegion::kI].background = show.sky[SkyRegion::kIII].background = GridSky{};
       const PixelErrors errors(show);
@@ -228,7 +228,7 @@ TEST(SkyPass, MakesTheRingsThatTracingEveryPixelMakes) {
     for (const double period : {0.02, 0.2, 4.0})
       for (const double r : {0.3, 1.9, 4.0}) {
         Show show = show_of(
-            GivenVelocity{r < 2 ? Region::kIV : Region::kI, Tetrad::kOutgoing, r, V3d(0.1, 0, 0.2)},
+            GivenVelocity{r < 2 ? Region::kIV : Region::kI, Tetrad::kOutgoing, r, {0.1, 0, 0.2}},
             p);
         show.sky[SkyRegion::kIV].background = RingsSky{period};
         const PixelErrors errors(show);

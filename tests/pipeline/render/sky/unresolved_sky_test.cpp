@@ -52,7 +52,7 @@ TEST(UnresolvedSkies, AreNotSoughtWhereNothingIsCrowded) {
 // factor in flat space, or at r in a show without lensing.
 double light_of_an_even_sky(double gamma, double aside_pixels, int size, double r = kFlatSpace) {
   Show show =
-      show_of(GivenVelocity{Region::kI, Tetrad::kRain, r, V3d(0, 0, std::sqrt(gamma * gamma - 1))},
+      show_of(GivenVelocity{Region::kI, Tetrad::kRain, r, {0, 0, std::sqrt(gamma * gamma - 1)}},
               Domemaster{size});
   // The zenith lies along the motion, or `aside_pixels` beside it.
   show.timeline[0].camera.attitude =

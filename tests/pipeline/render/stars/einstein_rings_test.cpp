@@ -60,7 +60,7 @@ TEST(EinsteinRings, HaveTheLightOfADiscAcrossTheAxis) {
        {Sweep{Region::kI, 1e8, false}, Sweep{Region::kI, 1e6, false}, Sweep{Region::kI, 1e3, false},
         Sweep{Region::kI, 10, false}, Sweep{Region::kI, 2.5, false}, Sweep{Region::kII, 1, false},
         Sweep{Region::kII, 1, true}}) {
-    StarScene scene({s.region, Tetrad::kRain, s.r, V3d(0, 0, 0)}, Domemaster{1024});
+    StarScene scene({s.region, Tetrad::kRain, s.r, {0, 0, 0}}, Domemaster{1024});
     const double disc = scene.show.least_star_radius = 0.16 * kDegree;
     const StarImageFinder maker = scene.images(s.far);
     double before = 0;
@@ -92,7 +92,7 @@ TEST(EinsteinRings, HaveTheLightOfADiscAcrossTheAxis) {
 // In line the image is Einstein's ring, which is even, closed and everywhere at one angle from the
 // hole.
 TEST(EinsteinRings, InLineAreARing) {
-  const StarScene scene({Region::kI, Tetrad::kRain, 30, V3d(0, 0, 0)}, Domemaster{1024});
+  const StarScene scene({Region::kI, Tetrad::kRain, 30, {0, 0, 0}}, Domemaster{1024});
   std::vector<StarImage> images;
   scene.images().append(bright_star(scene.sky(V3d(-1, 0, 0))), images);
   const V3d hole = apply_transposed(scene.state.observer.tetrad_from_camera, V3d(-1, 0, 0));
@@ -121,7 +121,7 @@ TEST(EinsteinRings, InLineAreARing) {
 
 // As the star leaves the axis, its arc shrinks to a point.
 TEST(EinsteinRings, BecomePoints) {
-  StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
+  StarScene scene({Region::kI, Tetrad::kRain, 10, {0, 0, 0}}, Domemaster{1024});
   const double disc = scene.show.least_star_radius = 0.16 * kDegree;
   const auto longest = [&](double radii) {
     std::vector<StarImage> images;
@@ -158,7 +158,7 @@ TEST(EinsteinRings, OfTheFirstLightOfRegionThreeAreFiniteAndOrdered) {
   const SceneStars stars(list);
   double before = 0;
   for (int k = 1; k <= 12; ++k) {
-    const StarScene scene({Region::kII, Tetrad::kRain, 2 - std::pow(10, -k), V3d(0, 0, 0)},
+    const StarScene scene({Region::kII, Tetrad::kRain, 2 - std::pow(10, -k), {0, 0, 0}},
                           Domemaster{256}, 30);
     ASSERT_TRUE(scene.has(true));
     const auto images = all_images(scene.images(true), stars);

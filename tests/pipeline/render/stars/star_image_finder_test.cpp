@@ -23,25 +23,26 @@ struct Case {
   Region region;
   Tetrad tetrad;
   double r;
-  V3d celerity;
+  Celerity<ReferenceTetrad> celerity;
 };
 
-const V3d kAtRest(0, 0, 0), kBrisk(0.2, 0.6, 0.3), kFast(-3, 8, 5);
+const Celerity<ReferenceTetrad> kAtRest(0, 0, 0), kBrisk(0.2, 0.6, 0.3), kFast(-3, 8, 5);
 
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const double r : {1e8, 1e4, 300.0, 12.0, 6.0, 3.0, 2.5, 2.000001})
-    for (const V3d& c : {kAtRest, kBrisk, kFast}) all.push_back({Region::kI, Tetrad::kRain, r, c});
+    for (const auto& c : {kAtRest, kBrisk, kFast}) all.push_back({Region::kI, Tetrad::kRain, r, c});
   for (const double r : {1.999999, 1.9, 1.0, 0.1, 1e-3, 1e-6})
-    for (const V3d& c : {kAtRest, kBrisk}) all.push_back({Region::kII, Tetrad::kRain, r, c});
-  for (const V3d& c : {V3d(1e4, 0, 0), V3d(-7e3, 5e3, 5e3)})
+    for (const auto& c : {kAtRest, kBrisk}) all.push_back({Region::kII, Tetrad::kRain, r, c});
+  for (const auto& c :
+       {Celerity<ReferenceTetrad>(1e4, 0, 0), Celerity<ReferenceTetrad>(-7e3, 5e3, 5e3)})
     for (const double r : {1e3, 4.0}) all.push_back({Region::kI, Tetrad::kRain, r, c});
   for (const double r : {2.001, 8.0}) {
     all.push_back({Region::kI, Tetrad::kOutgoing, r, kBrisk});
     all.push_back({Region::kIII, Tetrad::kRainOfThree, r, kBrisk});
     // At rest the observer moves outward against rain as fast as rain falls inward.
     const double s = std::sqrt(2 / r);
-    all.push_back({Region::kI, Tetrad::kRain, r, V3d(s / std::sqrt(1 - s * s), 0, 0)});
+    all.push_back({Region::kI, Tetrad::kRain, r, {s / std::sqrt(1 - s * s), 0, 0}});
   }
   all.push_back({Region::kI, Tetrad::kRain, kFlatSpace, kFast});
   return all;

@@ -104,10 +104,10 @@ struct Place {
 TEST(StarPhotometry, StarsAreAsBrightAsTheSkyTheyMakeUp) {
   const double s = std::sqrt(2 / 6.0), outward = s / std::sqrt(1 - s * s);
   const std::vector<Place> places{
-      {"at rest", {Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 0, 0)}, {30, 60, 90}},
-      {"0.6 c", {Region::kI, Tetrad::kRain, kFlatSpace, V3d(-0.75, 0, 0)}, {25, 50, 75}},
-      {"static at 6 M", {Region::kI, Tetrad::kRain, 6, V3d(outward, 0, 0)}, {50, 75, 100}},
-      {"inside", {Region::kII, Tetrad::kRain, 1, V3d(0, 0, 0)}, {40, 80}}};
+      {"at rest", {Region::kI, Tetrad::kRain, kFlatSpace, {0, 0, 0}}, {30, 60, 90}},
+      {"0.6 c", {Region::kI, Tetrad::kRain, kFlatSpace, {-0.75, 0, 0}}, {25, 50, 75}},
+      {"static at 6 M", {Region::kI, Tetrad::kRain, 6, {outward, 0, 0}}, {50, 75, 100}},
+      {"inside", {Region::kII, Tetrad::kRain, 1, {0, 0, 0}}, {40, 80}}};
   const double temperature = temperature_from_b_v(kColour);
   const double flux = std::pow(10, -0.4 * kMagnitude) * bolometric_flux_at_v_zero(temperature);
   std::mt19937 random(7);
@@ -185,7 +185,7 @@ TEST(StarPhotometry, SoAreTheirBlobs) {
   }
   std::fclose(out);
   const double s = std::sqrt(2 / 6.0), outward = s / std::sqrt(1 - s * s);
-  StarScene scene({Region::kI, Tetrad::kRain, 6, V3d(outward, 0, 0)}, Domemaster{kSize}, kExposure);
+  StarScene scene({Region::kI, Tetrad::kRain, 6, {outward, 0, 0}}, Domemaster{kSize}, kExposure);
   scene.show.point_spread = {};
   scene.show.sky[SkyRegion::kI].background = BlackSky{};
   scene.show.sky[SkyRegion::kI].stars = StarField{file, 9};
@@ -251,9 +251,8 @@ TEST(StarPhotometry, AShiftedStarIsSeenAsTheVOfItsNewTemperature) {
 // The drawn image has the light of a star at rest that has the V and the temperature of the image.
 TEST(StarPhotometry, TheSeenVIsThatOfThePixels) {
   for (const double speed : {-0.75, 0.75, -3.0}) {
-    const StarScene moving({Region::kI, Tetrad::kRain, kFlatSpace, V3d(speed, 0, 0)},
-                           Domemaster{256});
-    const StarScene resting({Region::kI, Tetrad::kRain, kFlatSpace, V3d(0, 0, 0)}, Domemaster{256});
+    const StarScene moving({Region::kI, Tetrad::kRain, kFlatSpace, {speed, 0, 0}}, Domemaster{256});
+    const StarScene resting({Region::kI, Tetrad::kRain, kFlatSpace, {0, 0, 0}}, Domemaster{256});
     const Star star{moving.sky(V3d(-1, 0.3, 0.1)), 2, 5000};
     const auto image =
         StarSight(moving.state, moving.show.effects).image(SkyRegion::kI, star.direction, 0);

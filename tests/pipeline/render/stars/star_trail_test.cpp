@@ -187,7 +187,7 @@ TEST(StarTrail, OfSuccessiveInstantsLoseNoLight) {
 
 // A faint star's trail takes fewer blobs than a bright one's and has as much light for its flux.
 TEST(StarTrail, OfAFaintStarIsTheSameInFewerPieces) {
-  StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0.5, 0, 0)}, Domemaster{1024});
+  StarScene scene({Region::kI, Tetrad::kRain, 10, {0.5, 0, 0}}, Domemaster{1024});
   scene.motion.turn = V3d(0, 0, 0.004);
   std::vector<double> per_flux;
   std::vector<std::size_t> pieces;
@@ -208,10 +208,12 @@ TEST(StarTrail, OfAFaintStarIsTheSameInFewerPieces) {
 // pieces of a trail are then found one by one.  For who is at rest but for 1e-12 nothing else
 // changes.
 TEST(StarTrail, InBatchesHasThePiecesFoundOneByOne) {
-  const V3d rest = resting_celerity(10, Tetrad::kRain);
+  const auto rest = resting_celerity(10, Tetrad::kRain);
   StarScene batches({Region::kI, Tetrad::kRain, 10, rest}, Domemaster{1024});
   batches.motion.turn = V3d(0.001, -0.004, 0.002);
-  StarScene singles = {{Region::kI, Tetrad::kRain, 10, rest + V3d(1e-12, 0, 0)}, Domemaster{1024}};
+  StarScene singles = {
+      {Region::kI, Tetrad::kRain, 10, Celerity<ReferenceTetrad>(rest + V3d(1e-12, 0, 0))},
+      Domemaster{1024}};
   singles.motion = batches.motion;
   singles.show.effects.aberration = false;
   for (const double from_axis : {1e-5, 1e-3, 0.02}) {
@@ -274,7 +276,7 @@ double largest_flash(const StarScene& scene, double from_axis, double step) {
 // more than the star has a step away from the axis, which is four times what it has at first.
 TEST(StarTrail, MakesNoFrameFlash) {
   const double step = 0.004;
-  StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
+  StarScene scene({Region::kI, Tetrad::kRain, 10, {0, 0, 0}}, Domemaster{1024});
   for (const double from_axis : {1e-6, 1e-4, 2e-3}) {
     scene.motion = {};
     const double still = largest_flash(scene, from_axis, step);
@@ -285,7 +287,7 @@ TEST(StarTrail, MakesNoFrameFlash) {
 
 // Far from the axis, and where the sky stands still, an image is that of the instant.
 TEST(StarTrail, IsOneImageWhereTheSkyMovesLittle) {
-  StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{1024});
+  StarScene scene({Region::kI, Tetrad::kRain, 10, {0, 0, 0}}, Domemaster{1024});
   const SceneStar star{scene.sky(V3d(-1, 0.05, 0.02)), 4, 1e-10, 6000, 1e-9};
   const auto still = all_images(scene.images(), SceneStars({star}));
   scene.motion = {V3d(0, 0.001, 0)};
@@ -303,7 +305,7 @@ TEST(StarTrail, HasTheSameLightAtEverySize) {
     for (const double from_axis : {1e-5, 1e-3}) {
       double small = 0;
       for (const int size : {512, 1024, 4096}) {
-        StarScene scene({Region::kI, Tetrad::kRain, 10, V3d(0, 0, 0)}, Domemaster{size});
+        StarScene scene({Region::kI, Tetrad::kRain, 10, {0, 0, 0}}, Domemaster{size});
         scene.motion = {turn};
         const SceneStar star{scene.sky(V3d(-1, from_axis, 0.001)), 4, 1e-10, 6000, 1e-9};
         const double total = total_light(all_images(scene.images(), SceneStars({star})));
