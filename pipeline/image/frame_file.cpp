@@ -165,13 +165,20 @@ std::vector<ExrChannel> channels_of(const LayeredFrame<T>& frame) {
     }
     if (!layer.alpha.empty()) channels.push_back({prefix + "A", layer.alpha.data()});
   }
+  for (const Matte& matte : frame.mattes)
+    channels.push_back({matte.name + ".A", matte.covered.data()});
   return channels;
 }
 
 void write_colours(const std::filesystem::path& path, int width, int height,
                    std::vector<ExrChannel> channels, const FrameInfo& info,
-                   ExrCompression compression) {
+                   ExrCompression compression, const FrameData& data = {}) {
   ExrPicture picture{width, height, std::move(channels), compression, attributes_of(info)};
+  for (const ChannelImage* image : data.images)
+    for (ExrChannel& channel : interleaved(image->channels, image->pixels.data()))
+      picture.channels.push_back(std::move(channel));
+  picture.attributes.insert(picture.attributes.end(), data.attributes.begin(),
+                            data.attributes.end());
   const std::pair<std::string, ExrValue> colours[] = {{"chromaticities", kAcesCg},
                                                       {"colorSpace", "ACEScg"}};
   picture.attributes.insert(picture.attributes.begin(), std::begin(colours), std::end(colours));
@@ -187,9 +194,9 @@ void set_file_threads(int threads) {
 
 template <class T>
 void write_frame(const std::filesystem::path& path, const LayeredFrame<T>& frame,
-                 const FrameInfo& info, ExrCompression compression) {
+                 const FrameInfo& info, ExrCompression compression, const FrameData& data) {
   write_colours(path, frame.picture.width, frame.picture.height, channels_of(frame), info,
-                compression);
+                compression, data);
 }
 
 template <class T>
@@ -199,9 +206,9 @@ void write_frame(const std::filesystem::path& path, const ImageRgb<T>& picture,
 }
 
 template void write_frame(const std::filesystem::path&, const LayeredHalfFrame&, const FrameInfo&,
-                          ExrCompression);
+                          ExrCompression, const FrameData&);
 template void write_frame(const std::filesystem::path&, const LayeredFloatFrame&, const FrameInfo&,
-                          ExrCompression);
+                          ExrCompression, const FrameData&);
 template void write_frame(const std::filesystem::path&, const HalfFrame&, const FrameInfo&,
                           ExrCompression);
 template void write_frame(const std::filesystem::path&, const FloatImage&, const FrameInfo&,

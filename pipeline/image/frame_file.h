@@ -1,6 +1,6 @@
 // Rendered frames on the disk are scene-linear OpenEXR, with channels R, G, B of half floats or
-// floats, lossless, and with A and the channels of layers (layer.h) where they are asked for.  The header says what the pixels are (chromaticities of ACEScg, colorSpace),
-// which frame of which show this is (the fields of FrameInfo) and what the digest of the file is
+// floats, lossless, and with A and the channels of layers and data where they are asked for.  The
+// header says what the pixels are (chromaticities of ACEScg, colorSpace), which frame of which show this is (the fields of FrameInfo) and what the digest of the file is
 // (frame_check.h).  It says neither when nor where the frame was made, so the same frame has the
 // same bytes, whatever the machine and the number of threads.
 #pragma once
@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "pipeline/image/encode/exr_writer.h"
 #include "pipeline/image/frame_buffer.h"
@@ -33,11 +34,18 @@ struct FrameInfo {
 // caller's thread does it alone.  The bytes are the same.
 void set_file_threads(int threads);
 
+// FrameData are numbers of 32 bits about the pixels of a frame, and what the header says of them.
+struct FrameData {
+  std::vector<const ChannelImage*> images{};  // of the frame's size; not null
+  std::vector<std::pair<std::string, std::string>> attributes{};
+};
+
 // Writes a frame under its final name when it is complete.  T is Imath::half or float.  Throws as
 // TemporaryFile does.
 template <class T>
 void write_frame(const std::filesystem::path& path, const LayeredFrame<T>& frame,
-                 const FrameInfo& info, ExrCompression compression = ExrCompression::kZip);
+                 const FrameInfo& info, ExrCompression compression = ExrCompression::kZip,
+                 const FrameData& data = {});
 template <class T>
 void write_frame(const std::filesystem::path& path, const ImageRgb<T>& picture,
                  const FrameInfo& info, ExrCompression compression = ExrCompression::kZip);
@@ -47,8 +55,8 @@ void write_frame(const std::filesystem::path& path, const ImageRgb<T>& picture,
 void write_channels(const std::filesystem::path& path, const ChannelImage& image,
                     const FrameInfo& info);
 
-// Reads back the picture of a frame that write_frame wrote, without its layers.  Floats become halves as by half_frame().  Nothing is
-// decoded unless the digest of the file is right.  Throws InputError, which names the file, if it
+// Reads back the picture of a frame that write_frame wrote, without its layers.  Floats become
+// halves as by half_frame().  Nothing is decoded unless the digest of the file is right.  Throws InputError, which names the file, if it
 // is missing, damaged or was not written by write_frame, and throws as FileBytes::open.
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path);
 

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,17 +41,32 @@ struct LayerImage {
   std::vector<float> alpha{};
 };
 
-// A LayeredFrame is a picture and those of its layers that are asked for, each once, in the order of
-// drawing.
+// A Matte says how much of each pixel belongs to what it is named after.
+struct Matte {
+  std::string name;              // of its layer, NAME.A
+  std::vector<float> covered{};  // [height][width], 0 to 1
+};
+
+// A LayeredFrame is a picture with those of its layers that are asked for, each once in the order of
+// drawing, and with its mattes.
 template <class T>
 struct LayeredFrame {
   ImageRgb<T> picture;
   std::vector<LayerImage<T>> layers;
+  std::vector<Matte> mattes;
   std::vector<T> alpha;  // 1 where the projection shows anything; empty without layers
 
   LayeredFrame() = default;
-  explicit LayeredFrame(const std::vector<Layer>& asked) {
+  explicit LayeredFrame(const std::vector<Layer>& asked, std::vector<Matte> mattes_asked = {})
+      : mattes(std::move(mattes_asked)) {
     for (const Layer layer : asked) layers.push_back({layer});
+  }
+  // Returns a frame without a size that has the same layers and mattes.
+  LayeredFrame without_pixels() const {
+    LayeredFrame other;
+    for (const LayerImage<T>& image : layers) other.layers.push_back({image.layer});
+    for (const Matte& matte : mattes) other.mattes.push_back({matte.name});
+    return other;
   }
 
   // Gives all of them one size.  Memory of that size is kept as it is.
@@ -60,7 +76,8 @@ struct LayeredFrame {
     };
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     resize(picture);
-    if (!layers.empty()) alpha.resize(pixels);
+    if (!layers.empty() || !mattes.empty()) alpha.resize(pixels);
+    for (Matte& matte : mattes) matte.covered.resize(pixels);
     for (LayerImage<T>& image : layers) {
       resize(image.light);
       if (kind_of(image.layer).has_alpha) image.alpha.resize(pixels);
@@ -74,17 +91,19 @@ struct LayeredFrame {
     return nullptr;
   }
 
-  // Calls use(values) with the values of the picture and of each layer's light, or of each layer's
-  // alpha, always in one order.
-  template <class Use>
-  void each_light(const Use& use) {
-    use(picture.pixels);
-    for (LayerImage<T>& image : layers) use(image.light.pixels);
+  // Return the values of the picture and of each layer's light, and those of each layer's alpha and
+  // of the mattes, always in one order.
+  std::vector<std::vector<T>*> lights() {
+    std::vector<std::vector<T>*> planes{&picture.pixels};
+    for (LayerImage<T>& image : layers) planes.push_back(&image.light.pixels);
+    return planes;
   }
-  template <class Use>
-  void each_alpha(const Use& use) {
+  std::vector<std::vector<float>*> alphas() {
+    std::vector<std::vector<float>*> planes;
     for (LayerImage<T>& image : layers)
-      if (!image.alpha.empty()) use(image.alpha);
+      if (!image.alpha.empty()) planes.push_back(&image.alpha);
+    for (Matte& matte : mattes) planes.push_back(&matte.covered);
+    return planes;
   }
 };
 

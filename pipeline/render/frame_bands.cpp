@@ -270,6 +270,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
       drawn.bodies->draw_band(band, splats, rgb.data());
       if (layers) layers->take(Layer::kBodies, rgb.data());
     }
+    if (drawn.mattes) drawn.mattes->fill_rows(first, end, rgb.data(), splats, frame.mattes);
     for (int row = first; row < end; ++row) {
       const ColumnRange inside = inside_columns(scene.projection(), row);
       store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row, inside,

@@ -12,6 +12,7 @@
 #include "pipeline/image/layer.h"
 #include "pipeline/render/blobs/blob_layer.h"
 #include "pipeline/render/disc/disc_pass.h"
+#include "pipeline/render/frame_mattes.h"
 #include "pipeline/render/rays/sky_borders.h"
 #include "pipeline/render/sky/sky_pass.h"
 
@@ -49,6 +50,7 @@ struct DrawnLight {
   const BlobLayer* crowded_skies = nullptr;  // these alone, for frames with layers
   const DiscPass* disc = nullptr;
   const BlobLayer* bodies = nullptr;
+  const MattePass* mattes = nullptr;  // of all of this, for frames with mattes
 };
 
 // Draws skies and what is before them into a frame of the projection's size, and into those of its

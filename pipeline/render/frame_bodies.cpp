@@ -29,14 +29,13 @@ bool append_body(const BodySight& sight, const Body& body, const BodySight::Imag
 
 }  // namespace
 
-std::optional<BlobLayer> lay_bodies(const FrameScene& scene, const DiscPass* disc) {
-  if (scene.bodies.empty()) return std::nullopt;
+BlobLayer lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc) {
   const BodySight sight(scene.state, scene.effects, scene.least_star_radius);
   std::vector<StarImage> images;
   if (sight.sees()) {
     // Bodies are in region I or have come from there.
     const StarImageFinder finder(scene, SkyRegion::kI);
-    for (const Body& body : scene.bodies) {
+    for (const Body& body : bodies) {
       // Higher orders become ever fainter, so the search ends after a few faint ones in succession.
       int faint = 0;
       for (int order = sight.first_order(body);
@@ -49,9 +48,9 @@ std::optional<BlobLayer> lay_bodies(const FrameScene& scene, const DiscPass* dis
     }
   }
   // An observer who sees no bodies gets an empty layer, which draws nothing.
-  std::optional<BlobLayer> layer(std::in_place, scene.projection());
-  layer->add(images, scene.point_spread);
-  layer->sort_into_bands();
+  BlobLayer layer(scene.projection());
+  layer.add(images, scene.point_spread);
+  layer.sort_into_bands();
   return layer;
 }
 

@@ -1,7 +1,7 @@
 // Lays out the bodies of a frame as blobs that are ready to be drawn.
 #pragma once
 
-#include <optional>
+#include <span>
 
 #include "pipeline/render/blobs/blob_layer.h"
 #include "pipeline/render/disc/disc_pass.h"
@@ -9,9 +9,8 @@
 
 namespace domefall {
 
-// Returns a layer with those images of the scene's bodies that are bright enough, or nothing where
-// the scene has no bodies.  Each image is dimmed by the parts of the disc that its light has
-// crossed.  `disc` is null where there is none.
-std::optional<BlobLayer> lay_bodies(const FrameScene& scene, const DiscPass* disc);
+// Returns a layer with those images of bodies of the scene that are bright enough.  Each image is
+// dimmed by the parts of the disc that its light has crossed.  `disc` is null where there is none.
+BlobLayer lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc);
 
 }  // namespace domefall

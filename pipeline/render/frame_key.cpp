@@ -119,6 +119,12 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
     common.add("layers");
     for (const Layer layer : show.output.layers) common.add(kind_of(layer).name);
   }
+  const OutputData& data = show.output.data;
+  if (data.any()) {
+    common.add("data").add((data.lens ? 1 : 0) + (data.mattes ? 2 : 0) +
+                           (data.cryptomatte ? 4 : 0));
+    for (const Body& body : show.bodies) common.add(body.name);
+  }
   common_ = common.hex();
   Digest three;
   add_sky(three, show.sky[SkyRegion::kIII]);

@@ -21,6 +21,8 @@ class KeyedRenderer {
                 bool explain = false);
 
   const FrameKeys& keys() const { return *keys_; }
+  // Returns the number of threads of the renderer, once a frame was rendered.
+  int threads() const { return renderer_->threads(); }
 
   // Renders one of the frames.  Throws as Renderer, and TemporaryError if an asset has another
   // content than when its digest was taken.

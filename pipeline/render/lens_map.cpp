@@ -9,14 +9,14 @@
 #include <numbers>
 
 #include "pipeline/base/digest.h"
+#include "pipeline/render/disc_scene.h"
 #include "pipeline/render/key_parts.h"
-#include "pipeline/render/rays/view_tracer.h"
 
 namespace domefall {
 namespace {
 
 // The version is raised with every change that alters a number.
-constexpr int kLensMapVersion = 1;
+constexpr int kLensMapVersion = 2;
 
 constexpr double kHalfTurn = 180;  // degrees
 
@@ -38,14 +38,14 @@ class LensMapper {
  public:
   // `show` and `state` must outlive this object.
   LensMapper(const Show& show, const FrameState& state)
-      : projection_(state.projection),
-        // All three skies get their tables, since a map describes each pixel, lit or not.
-        tracer_(state, WantedSkies{{true, true, true}}, show.effects) {}
+      : projection_(state.projection), scene_(show, state) {}
 
   // Fills in the numbers of a pixel, which must be 0 before.
   void fill(PixelPosition at, float* out) const {
     if (!is_inside(projection_, at)) return;
-    const ViewRay ray = tracer_.trace(direction_at(projection_, at));
+    const CameraDirection n = direction_at(projection_, at);
+    const double width = pixel_angle(projection_, at);
+    const ViewRay ray = scene_.scene.tracer.trace(n);
     const auto set = [out](LensChannel channel, double value) {
       out[channel] = static_cast<float>(value);
     };
@@ -59,19 +59,27 @@ class LensMapper {
     // The distance is infinite where there is no edge, and no two directions are farther apart than
     // half a turn.
     set(kEdgeDistance, std::min(ray.to_edge * kHalfTurn / std::numbers::pi, kHalfTurn));
+    const auto gas = scene_.disc ? scene_.disc->places(n, width) : std::vector<DiscPass::Place>{};
+    if (!gas.empty()) {
+      set(kGasRadius, gas[0].r);
+      set(kGasAzimuth, gas[0].azimuth * kHalfTurn / std::numbers::pi);
+      set(kGasOnePlusZ, 1 / gas[0].frequency_ratio);
+      set(kGasOrder, gas[0].order);
+      set(kGasCovered, gas[0].covered);
+    }
     // Redshift, amplification and order are not stated for the past singularity's light
     // (lens_map.h).
     if (ray.sky == SkyRegion::kIV) return;
     // 1 + z is the frequency as it was emitted over that observed.
     set(kOnePlusZ, 1 / ray.frequency_ratio);
-    set(kAmplification, amplification(ray.bundle, pixel_angle(projection_, at)));
+    set(kAmplification, amplification(ray.bundle, width));
     // Images of one order have swept azimuths between two neighbouring multiples of pi.
     set(kOrder, std::floor(ray.swept / std::numbers::pi));
   }
 
  private:
   const Projection& projection_;
-  ViewTracer tracer_;
+  DiscScene scene_;
 };
 
 }  // namespace
@@ -88,7 +96,12 @@ const std::vector<std::string>& lens_channel_names() {
                                               "light.one_plus_z",
                                               "light.amplification",
                                               "light.order",
-                                              "edge.distance"};
+                                              "edge.distance",
+                                              "gas.radius",
+                                              "gas.azimuth",
+                                              "gas.one_plus_z",
+                                              "gas.order",
+                                              "gas.covered"};
   return names;
 }
 
@@ -106,10 +119,11 @@ std::string lens_map_key(const Show& show, const FrameState& state) {
   Digest digest;
   digest.add("lens map").add(DOMEFALL_VERSION).add(kLensMapVersion).add(show.title);
   digest.add(show.frames_per_second).add(state.frame);
-  // No sky, star or exposure acts on a lens map, so that a change to these leaves its key as it is.
+  // No sky, star, light or exposure acts on a lens map, so that a change to these leaves its key as it is.
   add_observer(digest, seen.observer);
   add_projection(digest, seen.projection);
   add_effects(digest, show.effects);
+  add_disc(digest, show.disc);
   return digest.hex();
 }
 

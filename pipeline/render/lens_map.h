@@ -22,6 +22,12 @@ enum LensChannel {
   kAmplification,  // over the pixel's width
   kOrder,          // of the image: whole half turns about the hole
   kEdgeDistance,   // degrees in the view to the nearest edge of a sky; 180 where there is none
+  kGasRadius,      // M, of the disc where the pixel's ray meets it first; 0 where it does not, as
+                   // are the next four
+  kGasAzimuth,     // degrees about the disc's axis from its node
+  kGasOnePlusZ,
+  kGasOrder,    // of the image: 0 for the direct one
+  kGasCovered,  // the part of the pixel that this image covers
   kLensChannels,
 };
 const std::vector<std::string>& lens_channel_names();

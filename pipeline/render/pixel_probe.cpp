@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "pipeline/render/disc/disc_pass.h"
+#include "pipeline/render/disc_scene.h"
 #include "pipeline/render/overlay/bent_text.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/scene/body_sight.h"
@@ -27,42 +27,14 @@ std::vector<std::string> names_of_star(const StarCatalogue& catalogue, const Sta
   return names;
 }
 
-// The plan of a frame of which no sky is drawn.
-FramePlan plan_without_skies(const Show& show, const FrameState& state) {
-  FramePlan plan = plan_frame(show, state);
-  plan.sky = {};
-  return plan;
-}
-
 }  // namespace
-
-// The disc of the frame, in a scene that has nothing else.
-struct PixelProbe::Scene {
-  Scene(const Show& show, const FrameState& state)
-      : plan(plan_without_skies(show, state)),
-        light(plan.disc ? std::optional<DiscLight>(*show.disc) : std::nullopt),
-        scene(show, state, plan,
-              lens_of(state.observer, WantedSkies{{true, true, true}}, show.effects), {}, {},
-              light ? &*light : nullptr) {
-    if (light) disc.emplace(scene);
-  }
-
-  double left_before(const CameraDirection& n, double psi, double width) const {
-    return disc ? disc->left_before(n, psi, width) : 1;
-  }
-
-  FramePlan plan;
-  std::optional<DiscLight> light;
-  FrameScene scene;
-  std::optional<DiscPass> disc;
-};
 
 PixelProbe::PixelProbe(const Show& show, const FrameState& state, PixelPosition pixel)
     : show_(show),
       pixel_(pixel),
       towards_(direction_at(state.projection, pixel)),
       width_(pixel_angle(state.projection, pixel)),
-      scene_(std::make_unique<const Scene>(show, state)),
+      scene_(std::make_unique<const DiscScene>(show, state)),
       state_(scene_->scene.state) {}
 
 PixelProbe::~PixelProbe() = default;

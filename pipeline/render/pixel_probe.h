@@ -40,6 +40,8 @@ struct BodyAtPixel {
   PixelPosition at;        // of its middle
 };
 
+struct DiscScene;
+
 class PixelProbe {
  public:
   // The show must outlive this object.
@@ -64,14 +66,13 @@ class PixelProbe {
   std::vector<std::string> titles() const;
 
  private:
-  struct Scene;
   bool reaches(const CameraDirection& image) const;
 
   const Show& show_;
   PixelPosition pixel_;
   CameraDirection towards_;
   double width_;  // of the pixel, radians
-  std::unique_ptr<const Scene> scene_;
+  std::unique_ptr<const DiscScene> scene_;
   const FrameState& state_;  // of the scene
 };
 

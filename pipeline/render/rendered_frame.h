@@ -1,7 +1,11 @@
 // A RenderedFrame is a frame in the precisions that the files of a show ask for.
 #pragma once
 
+#include <optional>
+
 #include "pipeline/image/frame_file.h"
+#include "pipeline/render/frame_mattes.h"
+#include "pipeline/render/lens_map.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
@@ -10,9 +14,9 @@ struct RenderedFrame {
   explicit RenderedFrame(const Show& show) {
     if (!show.output.linear) return;
     if (keeps_floats(show))
-      full = LayeredFloatFrame(show.output.layers);
+      full = LayeredFloatFrame(show.output.layers, mattes_of(show));
     else
-      half = LayeredHalfFrame(show.output.layers);
+      half = LayeredHalfFrame(show.output.layers, mattes_of(show));
   }
 
   // Says whether the show's scene-linear files are of floats.
@@ -22,25 +26,41 @@ struct RenderedFrame {
 
   LayeredHalfFrame half;   // its picture is graded
   LayeredFloatFrame full;  // in full precision, where the show's scene-linear files are of floats
+  std::optional<ChannelImage> lens;
+  std::optional<Cryptomatte> cryptomatte;
 };
 
 // Renders a frame by any renderer of both kinds, into memory that is used again.
 template <class AnyRenderer>
 void render_for_files(AnyRenderer& renderer, const Show& show, const FrameState& state,
                       RenderedFrame& frame) {
-  if (!RenderedFrame::keeps_floats(show)) return renderer.render(state, frame.half);
-  renderer.render(state, frame.full);
-  frame.half.picture = half_frame(frame.full.picture);
+  const bool floats = RenderedFrame::keeps_floats(show);
+  if (floats) {
+    renderer.render(state, frame.full);
+    frame.half.picture = half_frame(frame.full.picture);
+  } else {
+    renderer.render(state, frame.half);
+  }
+  if (!show.output.linear) return;
+  if (show.output.data.lens) frame.lens = make_lens_map(show, state, renderer.threads());
+  if (show.output.data.cryptomatte)
+    frame.cryptomatte = identities(show, state, floats ? frame.full.mattes : frame.half.mattes);
 }
 
 // Writes the scene-linear file of a show that has one.  Throws as write_frame.
 inline void write_linear(const std::filesystem::path& path, const Show& show,
                          const RenderedFrame& frame, const FrameInfo& info) {
+  FrameData data;
+  if (frame.lens) data.images.push_back(&*frame.lens);
+  if (frame.cryptomatte) {
+    data.images.push_back(&frame.cryptomatte->image());
+    data.attributes = frame.cryptomatte->attributes();
+  }
   const ExrCompression compression = show.output.linear->compression;
   if (RenderedFrame::keeps_floats(show))
-    write_frame(path, frame.full, info, compression);
+    write_frame(path, frame.full, info, compression, data);
   else
-    write_frame(path, frame.half, info, compression);
+    write_frame(path, frame.half, info, compression, data);
 }
 
 }  // namespace domefall

@@ -14,6 +14,7 @@
 #include "pipeline/render/disc/disc_pass.h"
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/frame_bodies.h"
+#include "pipeline/render/frame_mattes.h"
 #include "pipeline/render/frame_stars.h"
 #include "pipeline/render/overlay/frame_overlays.h"
 #include "pipeline/render/overlay/frame_titles.h"
@@ -37,16 +38,8 @@ template <class T>
 void fade(LayeredFrame<T>& frame, double part) {
   const auto left = static_cast<float>(part);
   // Halves are multiplied as floats and rounded once.
-  frame.each_light([&](std::vector<T>& values) {
-    for (T& value : values) value = left * static_cast<float>(value);
-  });
-}
-
-template <class T>
-std::vector<Layer> layers_of(const LayeredFrame<T>& frame) {
-  std::vector<Layer> layers;
-  for (const LayerImage<T>& image : frame.layers) layers.push_back(image.layer);
-  return layers;
+  for (std::vector<T>* values : frame.lights())
+    for (T& value : *values) value = left * static_cast<float>(value);
 }
 
 // A PictureAlone lends the memory of a picture to a frame without layers, and gives it back, also
@@ -67,15 +60,13 @@ template <class T>
 void dissolve(LayeredFrame<T>& frame, LayeredFrame<T>& vanishing, double part) {
   const auto of_other = static_cast<float>(part), of_own = 1 - of_other;
   // Light is mixed and not brightness, as two projectors on one screen would mix it.
-  const auto mix = [&](auto& own, const auto& other) {
-    for (std::size_t k = 0; k < own.size(); ++k)
-      own[k] = of_own * static_cast<float>(own[k]) + of_other * static_cast<float>(other[k]);
+  const auto mix = [&](const auto& planes, const auto& others) {
+    for (std::size_t p = 0; p < planes.size(); ++p)
+      std::transform(planes[p]->begin(), planes[p]->end(), others[p]->begin(), planes[p]->begin(),
+                     [&](float own, float other) { return of_own * own + of_other * other; });
   };
-  mix(frame.picture.pixels, vanishing.picture.pixels);
-  for (std::size_t k = 0; k < frame.layers.size(); ++k) {
-    mix(frame.layers[k].light.pixels, vanishing.layers[k].light.pixels);
-    mix(frame.layers[k].alpha, vanishing.layers[k].alpha);
-  }
+  mix(frame.lights(), vanishing.lights());
+  mix(frame.alphas(), vanishing.alphas());
 }
 
 // Sets the alpha of a row, which is 1 in the columns that the projection shows.
@@ -101,6 +92,8 @@ void put(const LayeredFrame<T>& image, const CubemapFace& face, LayeredFrame<T>&
     copy(image.layers[k].light.pixels, 3, frame.layers[k].light.pixels);
     if (!frame.layers[k].alpha.empty()) copy(image.layers[k].alpha, 1, frame.layers[k].alpha);
   }
+  for (std::size_t k = 0; k < frame.mattes.size(); ++k)
+    copy(image.mattes[k].covered, 1, frame.mattes[k].covered);
 }
 
 }  // namespace
@@ -208,7 +201,7 @@ void Renderer::render_instant(const FrameState& state, double gap, LayeredFrame<
   render_faded(state, gap, frame, times);
   if (!state.vanishing) return;
   StageTimes own;
-  LayeredFrame<T> vanishing(layers_of(frame));
+  LayeredFrame<T> vanishing = frame.without_pixels();
   render_faded(*state.vanishing, gap, vanishing, own);
   dissolve(frame, vanishing, state.vanishing_part);
   times.add(own);
@@ -247,7 +240,7 @@ void Renderer::render_view(const FrameState& state, double gap, LayeredFrame<T>&
   const std::vector<CubemapFace> faces = cubemap_faces(state.projection);
   // Only a cubemap has faces.
   if (faces.empty()) return render_image(scene, frame, times);
-  LayeredFrame<T> image(layers_of(frame));
+  LayeredFrame<T> image = frame.without_pixels();
   image.set_size(columns(faces[0].projection), rows(faces[0].projection));
   for (const CubemapFace& face : faces) {
     StageTimes own;
@@ -295,16 +288,23 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
     std::optional<DiscPass> disc;
     if (scene.disc) disc.emplace(scene);
     times.disc_s = watch.lap();
-    const std::optional<BlobLayer> bodies = lay_bodies(scene, disc ? &*disc : nullptr);
-    if (bodies) times.images += bodies->size();
+    const DiscPass* const disc_or_none = disc ? &*disc : nullptr;
+    std::optional<BlobLayer> bodies;
+    if (!scene.bodies.empty()) {
+      bodies.emplace(lay_bodies(scene, scene.bodies, disc_or_none));
+      times.images += bodies->size();
+    }
+    std::optional<MattePass> mattes;
+    if (!image.mattes.empty()) mattes.emplace(scene, disc_or_none);
     times.stars_s += watch.lap();
     memory_->bands.throw_if_stopped();
     draw_bands(scene, sky,
                {.stars = &stars,
                 .borders = borders ? &*borders : nullptr,
                 .crowded_skies = divided ? &crowded : nullptr,
-                .disc = disc ? &*disc : nullptr,
-                .bodies = bodies ? &*bodies : nullptr},
+                .disc = disc_or_none,
+                .bodies = bodies ? &*bodies : nullptr,
+                .mattes = mattes ? &*mattes : nullptr},
                memory_->bands, image);
     memory_->bands.throw_if_stopped();
     times.pixels_s = watch.lap();

@@ -141,8 +141,8 @@ void MeanFrame::add(LayeredFrame<T>& instant) {
       for (std::size_t k = first; k < end; ++k) sum[k] += values[k];
     });
   };
-  instant.each_light(add_plane);
-  instant.each_alpha(add_plane);
+  for (const auto* values : instant.lights()) add_plane(*values);
+  for (const auto* values : instant.alphas()) add_plane(*values);
   ++count_;
 }
 
@@ -156,8 +156,8 @@ void MeanFrame::store(LayeredFrame<T>& frame) const {
       store_mean(sum.data() + first, share, end - first, values.data() + first);
     });
   };
-  frame.each_light(store_plane);
-  frame.each_alpha(store_plane);
+  for (auto* values : frame.lights()) store_plane(*values);
+  for (auto* values : frame.alphas()) store_plane(*values);
 }
 
 template void MeanFrame::add(LayeredHalfFrame&);

@@ -39,7 +39,7 @@ class MeanFrame {
 
  private:
   int count_ = 0;
-  std::vector<std::vector<float>> sums_;  // in the order of each_light() and each_alpha()
+  std::vector<std::vector<float>> sums_;  // in the order of lights() and alphas()
 };
 
 }  // namespace domefall

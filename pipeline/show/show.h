@@ -236,11 +236,18 @@ struct FrameNames {
   int per_folder = 0;  // frames that share a folder of their own; 0: all are in one
 };
 
+// OutputData are numbers about a frame, as channels of 32 bits (docs/compositing.md).
+struct OutputData {
+  bool lens = false, mattes = false, cryptomatte = false;
+  bool any() const { return lens || mattes || cryptomatte; }
+};
+
 // An Output says which files are made of a frame, at least one.
 struct Output {
   std::optional<ExrFormat> linear = ExrFormat{};        // nothing: none
   std::optional<GradedFormat> graded = GradedFormat{};  // nothing: none
   std::vector<Layer> layers;  // of scene-linear files, each once, in the order of drawing
+  OutputData data;            // of scene-linear files
   FrameNames names;
   std::string owner;  // of the pictures, named in the scene-linear files; empty: not named
 };

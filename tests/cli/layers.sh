@@ -73,6 +73,50 @@ exits 0 "$DOMEFALL" render floats.yaml --size 64 --frames "$number" --out floats
 off=$(off_by "floats/linear/$(basename "$frame")")
 awk -v off="$off" 'BEGIN { exit !(off < 1e-3) }' || fail "floats are off by $off"
 
+# Mattes and identities: each body's matte is found again by its name, from the manifest.
+sed '/^output:/d' beacon.yaml >data.yaml
+cat >>data.yaml <<'END'
+output: {graded: none, name: f, data: [mattes, cryptomatte, lens]}
+titles: [{text: "Two: \"stars\"", at_s: 50, duration_s: 10, elevation_deg: 15, height_deg: 5}]
+END
+exits 0 "$DOMEFALL" render data.yaml --size 128 --frames 1700 --out data
+file=data/linear/f_01700.exr
+# id_of NAME: the number of an object, out of the file's manifest.
+id_of() {
+  oiiotool --info -v "$file" | python3 -c '
+import json, re, struct, sys
+text = sys.stdin.read()
+manifest = json.loads(re.search(r"cryptomatte/\w{7}/manifest: \"(.*)\"\n", text)[1])
+print(repr(struct.unpack(">f", bytes.fromhex(manifest[sys.argv[1]]))[0]))' "$1"
+}
+# extract NAME: what the ranks say of an object, as extracted.exr.
+extract() {
+  local id rank ranks=()
+  id=$(id_of "$1")
+  for rank in 00.R:00.G 00.B:00.A 01.R:01.G 01.B:01.A; do
+    ranks+=("$file" --ch "CryptoObject${rank%:*}" --divc "$id" --subc 1 --abs --mulc 1e6 --clamp:min=0:max=1
+      --mulc -1 --addc 1 "$file" --ch "CryptoObject${rank#*:}" --mul)
+    [ "${#ranks[@]}" -lt 20 ] || ranks+=(--add)
+  done
+  oiiotool "${ranks[@]}" -o extracted.exr
+}
+most() { oiiotool --stats "$1" | awk '/Stats Max/ { print $3 }'; }
+for body in first:body_1 second:body_2; do
+  extract "${body%:*}"
+  oiiotool extracted.exr "$file" --ch "${body#*:}.A" --sub --abs -o off.exr
+  awk -v off="$(most off.exr)" -v most="$(most extracted.exr)" 'BEGIN { exit !(off < 1e-6 && most > 0.5) }' ||
+    fail "the matte of ${body%:*} is off by $(most off.exr) of $(most extracted.exr)"
+done
+extract 'Two: "stars"'
+awk -v most="$(most extracted.exr)" 'BEGIN { exit !(most > 0.3) }' || fail "no matte of the title: $(most extracted.exr)"
+
+# The numbers of the lens are those of a lens map, and a disc's are those of the probe.
+exits 0 "$DOMEFALL" render data.yaml --size 128 --frames 1700 --lens-map --out data
+channels=sky.x,sky.y,sky.z,st.s,st.t,light.one_plus_z,light.amplification,gas.radius
+oiiotool "$file" --ch $channels -o of_frame.exr
+oiiotool data/lens/f_01700.exr --ch $channels -o of_map.exr
+same_pixels of_frame.exr of_map.exr || fail "frame and lens map differ"
+
 # Wrong lists are refused with their place.
 refuses() {
   printf 'size: 64\ntimeline: [{duration_s: 1}]\noutput: {%s}\n' "$1" >wrong.yaml
@@ -83,3 +127,5 @@ refuses 'layers: [sky, star]' "output.layers\[2\] must be sky.*'star'; did you m
 refuses 'layers: [sky, sky]' 'output.layers\[2\] is listed twice: sky'
 refuses 'layers: sky' 'output.layers'
 refuses 'linear: none, layers: [sky]' 'output.layers are in scene-linear files'
+refuses 'data: [lens, matte]' "output.data\[2\] must be lens.*'matte'; did you mean mattes"
+refuses 'linear: none, data: [lens]' 'output.data are in scene-linear files'

@@ -109,6 +109,10 @@ void DiscPass::draw_rows(int first, int end, float* rgb, float* left) const {
   draw(line, first, end, rgb, left);
 }
 
+void DiscPass::fill_orders(int row, std::span<float* const> orders) const {
+  Row(*this, false).fill_orders(row, orders);
+}
+
 void DiscPass::draw_rows_singly(int first, int end, float* rgb) const {
   Row line(*this, false);
   draw(line, first, end, rgb, nullptr);

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/light/plane_rays.h"
@@ -33,6 +34,11 @@ class DiscPass {
   // Does the same with each pixel computed by itself.  This is slower, and tests compare
   // draw_rows() with it.
   void draw_rows_singly(int first, int end, float* rgb) const;
+
+  // Sets for each pixel of a row that the disc covers the part of the light from behind which each
+  // order of its images takes, so that their sum is 1 - left of draw_rows().  There is one row of
+  // values for each order.
+  void fill_orders(int row, std::span<float* const> orders) const;
 
   // Returns the part of the light from a place on a ray that the disc in front of it lets through.
   // The ray is seen in direction n, and the place lies psi radians along it.  Across a rim of the

@@ -49,7 +49,7 @@ CellWeights cell_weights(double first_cell) {
 // 2 gamma_1 gamma_2.
 double most_gamma(const FrameScene& scene) {
   const Viewer& viewer = scene.tracer.viewer();
-  const double gamma = std::sqrt(1 + viewer.celerity.dot(viewer.celerity));
+  const double gamma = gamma_of(viewer.celerity);
   if (!scene.tracer.goes_straight()) return gamma;
   return 2 * gamma * std::sqrt(1 + viewer.rest.dot(viewer.rest));
 }
@@ -97,6 +97,18 @@ void DiscPass::Row::draw(int row, float* rgb, float* left) {
   for (int column = first_ + cells * kStep; column <= inside.last; ++column)
     single_.push_back(column);
   draw_singly(row, rgb);
+}
+
+void DiscPass::Row::fill_orders(int row, std::span<float* const> orders) {
+  const ColumnRange inside = inside_columns(pass_.scene_.projection(), row);
+  for (int at = inside.first; at <= inside.last; at += Strip::kSize) {
+    const int count = std::min(Strip::kSize, inside.last + 1 - at);
+    locate(row, count, [at](int k) { return at + k; });
+    strip_.gather(crossings_, count);
+    for (std::size_t order = 0; order < orders.size(); ++order)
+      for (int k = 0; k < count; ++k)
+        orders[order][at + k] = static_cast<float>(strip_.taken(k, order));
+  }
 }
 
 // Finds where `count` pixels of a row see the disc.

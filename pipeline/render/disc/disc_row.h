@@ -24,6 +24,8 @@ class DiscPass::Row {
   // Lays the disc over the row's pixels, rgb[3 columns].  `left` is null or has one value a column
   // (DiscPass::draw_rows).
   void draw(int row, float* rgb, float* left);
+  // As DiscPass::fill_orders.
+  void fill_orders(int row, std::span<float* const> orders);
 
  private:
   static constexpr int kStep = 8;  // pixels from node to node

@@ -28,6 +28,7 @@ DiscPass::Strip::Strip(const DiscPass& pass)
 
 void DiscPass::Strip::gather(const Crossings& crossings, int count, const bool* wanted) {
   light_.fill(WorkingRgb{0, 0, 0});
+  taken_.fill({});
   for (int k = 0; k < count; ++k) {
     double& left = left_[static_cast<std::size_t>(k)];
     left = 1;
@@ -96,8 +97,9 @@ double DiscPass::Strip::gather_division(const Crossings& crossings, int k,
         beyond_rim((p - rims.high) / length(per, rims.high_slope * division.turn_per)),
         beyond_rim((p - rims.low) / length(per, rims.low_slope * division.turn_per))};
     if (!(share.to - share.from > 1e-5)) continue;
-    const double seen = veil.lay(share.from, share.to, disc_.opacity);
-    shade(crossings, k, division, turn, rims, share, seen * division.part);
+    const double seen = veil.lay(share.from, share.to, disc_.opacity) * division.part;
+    taken_[static_cast<std::size_t>(k)][static_cast<std::size_t>(order)] += seen;
+    shade(crossings, k, division, turn, rims, share, seen);
     left = veil.left();
   }
   return left;

@@ -22,6 +22,10 @@ class DiscPass::Strip {
   // light from behind that is left there.
   const WorkingRgb& light(int k) const { return light_[static_cast<std::size_t>(k)]; }
   double left(int k) const { return left_[static_cast<std::size_t>(k)]; }
+  // Returns the part of the light from behind that the image of an order takes.
+  double taken(int k, std::size_t order) const {
+    return taken_[static_cast<std::size_t>(k)][order];
+  }
 
  private:
   // A Division is a part of a pixel in which psi_0 changes little.  As a rule it is the whole
@@ -53,6 +57,7 @@ class DiscPass::Strip {
   template <class T>
   using Column = std::array<T, kSize>;
   Column<double> left_{};
+  Column<std::array<double, PlaneImages::kOrders>> taken_{};
   Column<WorkingRgb> light_{}, colour_{};
   struct {
     Column<float> r, g, weight;

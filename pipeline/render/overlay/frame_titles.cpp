@@ -53,15 +53,36 @@ std::string titles_key(const Show& show, const FrameState& state) {
   return digest.hex();
 }
 
+namespace {
+
+Coverage coverage_of(const Title& title, const FrameState& state) {
+  Coverage coverage(columns(state.projection), rows(state.projection));
+  const TextSurface surface(state.camera_from_audience, title.azimuth, title.elevation,
+                            title.height);
+  add_text(title_letters(title), surface, {0, 0}, state.projection, coverage);
+  return coverage;
+}
+
+}  // namespace
+
+std::vector<float> covered_by(const SeenTitle& seen, const FrameState& state) {
+  const auto width = static_cast<std::size_t>(columns(state.projection));
+  std::vector<float> covered(width * static_cast<std::size_t>(rows(state.projection)));
+  coverage_of(*seen.title, state)
+      .for_each_row([&](int row, int first, std::span<const double> parts) {
+        const ColumnRange inside = inside_columns(state.projection, row);
+        for (int column = std::max(first, inside.first);
+             column < first + static_cast<int>(parts.size()) && column <= inside.last; ++column)
+          covered[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)] =
+              static_cast<float>(seen.opacity * parts[static_cast<std::size_t>(column - first)]);
+      });
+  return covered;
+}
+
 void draw_titles(const Show& show, const FrameState& state, const FrameRef& frame) {
-  for (const auto& [title, opacity] : seen_titles(show, state)) {
-    // Each title has its own light and opacity, and so its own coverage.
-    Coverage coverage(frame.width, frame.height);
-    const TextSurface surface(state.camera_from_audience, title->azimuth, title->elevation,
-                              title->height);
-    add_text(title_letters(*title), surface, {0, 0}, state.projection, coverage);
-    draw_over(coverage, {title->light, opacity}, state.projection, frame);
-  }
+  // Each title has its own light and opacity, and so its own coverage.
+  for (const auto& [title, opacity] : seen_titles(show, state))
+    draw_over(coverage_of(*title, state), {title->light, opacity}, state.projection, frame);
 }
 
 }  // namespace domefall

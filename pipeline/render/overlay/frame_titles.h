@@ -28,6 +28,10 @@ const LetteredText& title_letters(const Title& title);
 // as title_letters.
 std::string titles_key(const Show& show, const FrameState& state);
 
+// Returns how much of each pixel a title covers, by its letters and opacity, [height][width].
+// Throws as title_letters.
+std::vector<float> covered_by(const SeenTitle& seen, const FrameState& state);
+
 // Draws the titles over a frame, in the order of seen_titles().  Throws as title_letters.
 void draw_titles(const Show& show, const FrameState& state, const FrameRef& frame);
 

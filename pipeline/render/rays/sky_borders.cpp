@@ -46,6 +46,11 @@ double angle_over_beyond(const ViewCurve& curve) {
   return c ? 1 / c->sine : 1;
 }
 
+// Returns the part of a pixel in the direction n that lies on the sky's side of its border.
+double part_within(const ViewCurve& curve, const CameraDirection& n, double pixel_angle) {
+  return std::clamp(0.5 - beyond(curve, n.v) * angle_over_beyond(curve) / pixel_angle, 0.0, 1.0);
+}
+
 // Returns the radius of a curve, or half of the largest distance of a polygon's corners from one.
 double radius_of(const ViewCurve& curve) {
   if (const auto* c = std::get_if<ViewCircle>(&curve)) return c->sine;
@@ -78,9 +83,20 @@ SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reac
 
 double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) const {
   double part = 0;
-  for (const ViewCurve& curve : curves_)
-    part += std::clamp(0.5 - beyond(curve, n.v) * angle_over_beyond(curve) / pixel_angle, 0.0, 1.0);
+  for (const ViewCurve& curve : curves_) part += part_within(curve, n, pixel_angle);
   return std::min(part, 1.0);
+}
+
+// The border of the own sky comes first (Lens::borders).  A sky without a border is all around.
+PerSky<double> SkyBorders::parts(const CameraDirection& n, double pixel_angle, SkyRegion own,
+                                 const PerSky<bool>& seen) const {
+  PerSky<double> parts;
+  const SkyRegion other = own == SkyRegion::kI ? SkyRegion::kIII : SkyRegion::kI;
+  std::size_t border = 0;
+  for (const SkyRegion sky : {own, other})
+    if (seen[sky])
+      parts[sky] = curves_.empty() ? 1 : part_within(curves_[border++], n, pixel_angle);
+  return parts;
 }
 
 // All pixels without a sky lie inside the first circle, where the first sky ends.  If the circle

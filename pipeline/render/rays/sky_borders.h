@@ -30,6 +30,10 @@ class SkyBorders {
   // Returns the part of a pixel, 0 to 1, that sees a sky.  The pixel lies in the direction n and
   // covers `pixel_angle` radians.  A border counts as straight within a pixel.
   double part_in_skies(const CameraDirection& n, double pixel_angle) const;
+  // Returns that part for each sky by itself.  `own` is the own sky of the observer's tetrad, and
+  // `seen` says which skies the observer sees.
+  PerSky<double> parts(const CameraDirection& n, double pixel_angle, SkyRegion own,
+                       const PerSky<bool>& seen) const;
   // Returns a box that contains all pixels that do not see a sky as a whole, or nothing if the
   // frame has no such pixel.
   std::optional<PixelBox> box_without_sky() const { return box_; }

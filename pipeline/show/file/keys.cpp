@@ -241,6 +241,7 @@ constexpr std::string_view kRows = R"(
 ## output
 | `linear` | `half`, `float` or `none`: scene-linear OpenEXR, of 16-bit floats or of 32 bits, twice the size, for compositing: bright stars beyond 65504 keep their light and dim ones their digits. A change from one to the other makes all frames again | [`half`] |
 | `layers` | a list of any of `sky`, `stars`, `disc`, `bodies` and `titles`: these parts of the light, too, in the scene-linear files, as [compositing.md](compositing.md) says | none |
+| `data` | a list of any of `lens`, `mattes` and `cryptomatte`: numbers about each pixel, as channels of 32 bits in the scene-linear files, as [compositing.md](compositing.md) says | none |
 | `compression` | `zip`, `zips`, `piz` or `none`: of the scene-linear files, all without loss: blocks of 16 rows, single rows, or wavelets, which are smaller for noise and three times slower to read | [`zip`] |
 | `graded` | `png16`, `png8`, `jpeg`, `tiff16`, `tiff8`, `png`, `tiff` or `none`: display-ready files; those without a number have 16 bits | [`png16`] |
 | `quality` | 1 to 100: of a JPEG | [95] |

@@ -102,21 +102,33 @@ std::optional<ExrFormat> read_linear(const Section& s) {
   return std::nullopt;
 }
 
-// Reads which layers scene-linear files have, in the order of drawing.
-std::vector<Layer> read_layers(const Section& s, bool linear) {
-  const Item* list = s.find("layers");
+// Reads a list of words about scene-linear files, and returns their places in `known`.
+std::set<std::size_t> read_parts(const Section& s, const char* key, bool linear,
+                                 const std::vector<std::string_view>& known) {
+  const Item* list = s.find(key);
   if (!list) return {};
   if (!linear) list->fail("are in scene-linear files, of which linear: none makes none");
-  std::vector<std::string_view> known;
-  known.reserve(kLayers.size());
-  for (const LayerKind& kind : kLayers) known.push_back(kind.name);
-  std::set<Layer> layers;
+  std::set<std::size_t> parts;
   for (const Item& item : read_list(*list).value_or(std::vector<Item>{})) {
     const auto index = read_choice(item, known);
-    if (index && !layers.insert(static_cast<Layer>(*index)).second)
+    if (index && !parts.insert(*index).second)
       item.fail("is listed twice: " + std::string(known[*index]));
   }
-  return {layers.begin(), layers.end()};
+  return parts;
+}
+
+std::vector<Layer> read_layers(const Section& s, bool linear) {
+  std::vector<std::string_view> known;
+  for (const LayerKind& kind : kLayers) known.push_back(kind.name);
+  std::vector<Layer> layers;  // in the order of drawing
+  for (const std::size_t index : read_parts(s, "layers", linear, known))
+    layers.push_back(static_cast<Layer>(index));
+  return layers;
+}
+
+OutputData read_data(const Section& s, bool linear) {
+  const auto parts = read_parts(s, "data", linear, {"lens", "mattes", "cryptomatte"});
+  return {parts.contains(0), parts.contains(1), parts.contains(2)};
 }
 
 // Reads the name that the files of frames begin with, which must name a visible file and no folder.
@@ -217,6 +229,7 @@ Output read_output(const Section& show) {
   Output output;
   output.linear = read_linear(s);
   output.layers = read_layers(s, output.linear.has_value());
+  output.data = read_data(s, output.linear.has_value());
   output.graded = s.word<std::optional<GradedFormat>>("graded", {{{kPng16}},
                                                                  {{kPng8}},
                                                                  {{kJpeg}},

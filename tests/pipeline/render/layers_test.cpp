@@ -5,37 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/pipeline/render/scenes.h"
+#include "tests/pipeline/render/rich_show.h"
 
 namespace domefall {
 namespace {
-
-const std::vector<Layer> kAll{Layer::kSky, Layer::kStars, Layer::kDisc, Layer::kBodies,
-                              Layer::kTitles};
-
-// Everything that has a layer: a map, stars, a disc that hides a part of them, a body, a title.
-Show rich_show(const Projection& projection) {
-  Show show = starry(show_of(StaticObserver{12}, projection));
-  show.spacetime = Schwarzschild{4e6};
-  show.timeline[0].camera.attitude = LookAtHole{};
-  Disc disc;
-  disc.opacity = 0.7;
-  disc.normal = {V3d(0.3, 0.2, 0.9).normalized()};
-  disc.node = {V3d(0.9, 0, -0.3).normalized()};
-  show.disc = disc;
-  Body body;
-  body.trajectory = CircularOrbit{8};
-  body.magnitude = -8;
-  show.bodies = {body};
-  Title title;
-  title.text = "Domefall";
-  title.end_s = 1;
-  title.elevation = 40 * kDegree;
-  title.height = 9 * kDegree;
-  title.light = {2, 1, 0.5f};
-  show.titles = {title};
-  return show;
-}
 
 double value_of(const ImageRgb<float>& image, std::size_t k) { return image.pixels[k]; }
 
@@ -59,7 +32,7 @@ double sum_of(const std::vector<T>& values) {
 LayeredFloatFrame expect_picture(const Show& show, int number = 0) {
   Renderer renderer(show, 2);
   const FrameState state = frame_state(show, number);
-  LayeredFloatFrame frame(kAll);
+  LayeredFloatFrame frame(kAllLayers);
   renderer.render(state, frame);
   FloatImage alone;
   renderer.render(state, alone);
@@ -115,7 +88,7 @@ TEST(Layers, OfADiscHoldItsLightAndWhatItHides) {
   Show without = show;
   without.disc.reset();
   without.bodies.clear();
-  LayeredFloatFrame bare(kAll);
+  LayeredFloatFrame bare(kAllLayers);
   Renderer(without, 1).render(frame_state(without, 0), bare);
   int opaque = 0, clear = 0;
   for (std::size_t pixel = 0; pixel < disc.alpha.size(); ++pixel)
@@ -135,9 +108,9 @@ TEST(Layers, ThatAreAskedForAloneAreTheSame) {
   const Show show = rich_show(Domemaster{128});
   const FrameState state = frame_state(show, 0);
   Renderer renderer(show, 2);
-  LayeredHalfFrame all(kAll);
+  LayeredHalfFrame all(kAllLayers);
   renderer.render(state, all);
-  for (const Layer layer : kAll) {
+  for (const Layer layer : kAllLayers) {
     LayeredHalfFrame one(std::vector{layer});
     renderer.render(state, one);
     ASSERT_EQ(one.layers.size(), 1U);
