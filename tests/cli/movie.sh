@@ -278,3 +278,28 @@ if unshare --mount true 2>stderr; then
   # shellcheck disable=SC2016  # the inner shell expands
   unshare --mount bash -c 'set -euo pipefail; movie=("$DOMEFALL" movie a.yaml); full'
 fi
+
+# Markers are chapters, whatever their names, and QuickTime files have the time code of their first frame.
+cat >chapters.yaml <<'END'
+title: Chapters
+frames_per_second: 24
+size: 64
+sky: {region_I: {background: grid, stars: none}}
+markers: {"door; opens=#1": 1, "[CHAPTER]": 2}
+timeline: [{duration_s: 3}]
+END
+chapters_of() {
+  ffprobe -v error -show_chapters -of json "$1" |
+    jq -r '.chapters[] | "\(.start_time | tonumber * 1000 | round) \(.end_time | tonumber * 1000 | round) \(.tags.title)"'
+}
+exits 0 "$DOMEFALL" movie chapters.yaml --preset review --out all.mp4
+exits 0 "$DOMEFALL" movie chapters.yaml --preset master --out all.mov
+printf '%s\n' '0 1000 Chapters' '1000 2000 door; opens=#1' '2000 3000 [CHAPTER]' >expected
+for movie in all.mp4 all.mov; do
+  chapters_of $movie | cmp - expected || fail "chapters of $movie: $(chapters_of $movie)"
+done
+exits 0 "$DOMEFALL" movie chapters.yaml --preset master --frames 30-59 --out part.mov
+printf '%s\n' '0 750 door; opens=#1' '750 1250 [CHAPTER]' >expected
+chapters_of part.mov | cmp - expected || fail "chapters of a part: $(chapters_of part.mov)"
+exits 0 ffprobe -v error -select_streams d -show_entries stream_tags=timecode -of csv=p=0 part.mov
+tells '^00:00:01:06'

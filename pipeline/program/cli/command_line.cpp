@@ -29,11 +29,11 @@ struct Verb {
 };
 
 constexpr std::array kVerbs{
-    Verb{"check", add_check},     Verb{"render", add_render}, Verb{"grade", add_grade},
-    Verb{"preview", add_preview}, Verb{"movie", add_movie},   Verb{"deliver", add_deliver},
-    Verb{"sheet", add_sheet},     Verb{"farm", add_farm},     Verb{"states", add_states},
-    Verb{"probe", add_probe},     Verb{"trace", add_trace},   Verb{"report", add_report},
-    Verb{"stars", add_stars},     Verb{"sky", add_sky},
+    Verb{"check", add_check},     Verb{"render", add_render},     Verb{"grade", add_grade},
+    Verb{"preview", add_preview}, Verb{"movie", add_movie},       Verb{"deliver", add_deliver},
+    Verb{"sheet", add_sheet},     Verb{"timeline", add_timeline}, Verb{"farm", add_farm},
+    Verb{"states", add_states},   Verb{"probe", add_probe},       Verb{"trace", add_trace},
+    Verb{"report", add_report},   Verb{"stars", add_stars},       Verb{"sky", add_sky},
 };
 
 // Throws InputError for a word that is no verb.

@@ -71,6 +71,13 @@ std::vector<VerbNotes> notes_of_deliveries() {
          "what most festivals ask for"},
         {"domefall deliver --check fall_4k", "was it copied whole?"}},
        "delivery.md"},
+      {"timeline",
+       "Writes what editing programs read: a clip for each segment, with dissolves,\n"
+       "markers and the frames that they refer to; the markers alone; or the titles.\n"
+       "A show takes markers from such a file, too.",
+       {{"domefall timeline fall.yaml --from out/fall --out fall.otio", "to cut and to mark"},
+        {"domefall timeline fall.yaml --format vtt --out fall.vtt", "titles for a web player"}},
+       "timeline.md"},
       {"sheet",
        "Puts up to 36 frames of the show on one picture, with their numbers.",
        {{"domefall sheet fall.yaml --from out/fall --out sheet.jpg", "of frames in out/fall"}},

@@ -17,6 +17,7 @@ void add_preview(CLI::App& app);
 void add_movie(CLI::App& app);
 void add_deliver(CLI::App& app);
 void add_sheet(CLI::App& app);
+void add_timeline(CLI::App& app);
 void add_states(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_trace(CLI::App& app);

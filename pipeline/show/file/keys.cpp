@@ -18,7 +18,7 @@ constexpr std::string_view kRows = R"(
 | `cameras` | further cameras by name, [below](#cameras) | |
 | `keyframes` | what changes during the show, [below](#keyframes) | |
 | `titles` | texts on the dome, [below](#titles) | |
-| `markers` | names for instants of the show, `{door_opens: 0:34}`, [below](#times-and-markers) | |
+| `markers` | names for instants of the show, `{door_opens: 0:34}`, or a file of OpenTimelineIO such as `cut.otio`, [below](#times-and-markers) | |
 | `fade_in_s`, `fade_out_s` | at least 0: seconds in which the show comes out of black at its start, and sinks to black at its end | [0] |
 | `timeline` | the list of segments, below | required |
 ## black_hole

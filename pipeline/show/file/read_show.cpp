@@ -52,7 +52,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   read_frame_rate(section, show);
   // The order matters: bodies need the hole, cameras the bodies, and segments all that a show
   // gives.
-  show.markers = read_markers(section);
+  show.markers = read_markers(section, lookup);
   show.fades = read_fades(section);
   read_black_hole(section, lookup, show);
   show.bodies = read_bodies(section, show, lookup);

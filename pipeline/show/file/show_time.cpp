@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "pipeline/base/errors.h"
 #include "pipeline/base/frame_rate.h"
 #include "pipeline/base/utf8.h"
+#include "pipeline/show/file/otio_markers.h"
 #include "pipeline/show/nearest_word.h"
 
 namespace domefall {
@@ -124,16 +126,42 @@ std::optional<double> parse_time(std::string_view text, const std::vector<Marker
   return std::nullopt;
 }
 
-std::vector<Marker> read_markers(const Section& show) {
+namespace {
+
+// A name that is a time itself could not be told from one.
+bool can_name_a_marker(const std::string& name) { return !parse_time(name, {}); }
+
+std::vector<Marker> markers_of_file(const Item& item, const Lookup& lookup) {
+  const auto file = lookup.file(item, item.node.Scalar());
+  if (!file) return {};
+  try {
+    std::vector<Marker> markers = read_otio_markers(*file);
+    for (Marker& marker : markers)
+      if (!can_name_a_marker(marker.name)) marker.name = "marker " + marker.name;
+    return markers;
+  } catch (const InputError& error) {
+    item.fail(error.what());
+    return {};
+  }
+}
+
+}  // namespace
+
+std::vector<Marker> read_markers(const Section& show, const Lookup& lookup) {
   std::vector<Marker> markers;
   const Item* list = show.find("markers");
   if (!list) return markers;
+  if (list->node.IsScalar() && list->node.Scalar().ends_with(".otio"))
+    return markers_of_file(*list, lookup);
   if (!list->node.IsMap()) {
-    list->fail("must be a map of names and times, e.g. {door_opens: 0:34}, got " + kind_of(*list));
+    list->fail(
+        "must be a map of names and times, e.g. {door_opens: 0:34}, or a file such as cut.otio, "
+        "got " +
+        kind_of(*list));
     return markers;
   }
   for (const auto& [name, item] : entries_of(*list)) {
-    if (parse_time(name, {}))
+    if (!can_name_a_marker(name))
       item.fail("has a name that is a time itself; begin it with a letter");
     else if (const auto at = read_time(item, kShowTime))
       markers.push_back({name, *at});

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/show/file/lookup.h"
 #include "pipeline/show/file/section.h"
 #include "pipeline/show/show.h"
 
@@ -24,8 +25,8 @@ std::optional<double> parse_time(std::string_view text, const std::vector<Marker
 // rate of video, such as 23.98, becomes the rate itself, and the show keeps what was written.
 void read_frame_rate(const Section& section, Show& show);
 
-// Reads the show's `markers`.
-std::vector<Marker> read_markers(const Section& show);
+// Reads the show's `markers`, which are in the show or in a file of OpenTimelineIO.
+std::vector<Marker> read_markers(const Section& show, const Lookup& lookup);
 
 // Reads a time as parse_time does, in seconds since the show's second `start`.  Numbers and clock
 // times count from there, and markers from the beginning of the show.

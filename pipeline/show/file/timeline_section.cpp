@@ -237,8 +237,12 @@ void check_keyframes(const Item& list, const std::vector<Keyframe>& keyframes, d
 }
 
 void check_markers(const Section& section, const std::vector<Marker>& markers, double end) {
-  for (const Marker& marker : markers)
-    if (marker.at_s > end) fail_behind_the_end(*peek(*section.find("markers"), marker.name), end);
+  for (const Marker& marker : markers) {
+    if (!(marker.at_s > end)) continue;
+    const Item& list = *section.find("markers");
+    // Markers out of a file have no place of their own in the show.
+    fail_behind_the_end(list.node.IsMap() ? *peek(list, marker.name) : list, end);
+  }
 }
 
 }  // namespace

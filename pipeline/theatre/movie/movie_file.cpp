@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -18,7 +19,7 @@ namespace domefall {
 namespace {
 
 using Arguments = std::vector<std::string>;
-using Subtitles = std::unique_ptr<MemoryFile>;
+using TextFile = std::unique_ptr<MemoryFile>;
 
 void append_to(Arguments& all, const Arguments& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -28,19 +29,36 @@ void append_to(Arguments& all, const Arguments& more) {
 // whatever name the file has, if any.
 std::string path_of_descriptor(int number) { return fmt::format("/proc/self/fd/{}", number); }
 
-// ffmpeg reads subtitles only from a file.
-Subtitles subtitle_file(const std::string& text) {
+// ffmpeg reads subtitles and chapters only from files.
+TextFile text_file(const std::string& text) {
   if (text.empty()) return nullptr;
-  auto file = std::make_unique<MemoryFile>("the subtitles");
+  auto file = std::make_unique<MemoryFile>("the texts of a movie");
   file->append(text);
   return file;
 }
 
-Arguments ffmpeg_arguments(const MoviePlan& plan, const Subtitles& subtitles,
-                           const Arguments& output) {
+// Returns the time code of the first frame, for the rates that SMPTE ST 12-1 counts, which no frame
+// is dropped from.  Programs look for one in QuickTime files.
+Arguments time_code(const MoviePlan& plan) {
+  const auto rate = static_cast<int>(std::ceil(per_second(plan.rate)));
+  constexpr std::array kRates{24, 25, 30, 48, 50, 60};
+  if (plan.preset.extension != "mov" || std::ranges::find(kRates, rate) == kRates.end()) return {};
+  constexpr int kMinute = 60, kHour = 3600, kDay = 24;
+  const int seconds = plan.first / rate;
+  return {"-timecode",
+          fmt::format("{:02}:{:02}:{:02}:{:02}", seconds / kHour % kDay, seconds % kHour / kMinute,
+                      seconds % kMinute, plan.first % rate)};
+}
+
+Arguments ffmpeg_arguments(const MoviePlan& plan, const TextFile& subtitles,
+                           const TextFile& chapters, const Arguments& output) {
   Arguments all{"ffmpeg", "-nostdin", "-hide_banner", "-v", "error", "-y"};
   append_to(all, input_options(plan.frames, plan.rate));
   append_to(all, sound_inputs(plan.sound));
+  // The file of chapters is the last input.  Without one those of a sound file do not count either.
+  if (chapters) append_to(all, {"-f", "ffmetadata", "-i", "file:" + chapters->path()});
+  append_to(all, {"-map_chapters",
+                  chapters ? fmt::to_string(1 + plan.sound.files.size()) : std::string("-1")});
   append_to(all, sound_options(plan.sound, plan.first, plan.count, plan.rate));
   append_to(all, video_options(plan.preset, plan.frames, plan.rate, plan.tags,
                                subtitles ? subtitles->path() : std::string()));
@@ -49,11 +67,12 @@ Arguments ffmpeg_arguments(const MoviePlan& plan, const Subtitles& subtitles,
   return all;
 }
 
-Arguments movie_arguments(const MoviePlan& plan, const Subtitles& subtitles, int file) {
-  return ffmpeg_arguments(
-      plan, subtitles,
-      {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
-       std::string(format_of(plan.preset)), "file:" + path_of_descriptor(file)});
+Arguments movie_arguments(const MoviePlan& plan, const TextFile& subtitles,
+                          const TextFile& chapters, int file) {
+  Arguments output = time_code(plan);
+  append_to(output, {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
+                     std::string(format_of(plan.preset)), "file:" + path_of_descriptor(file)});
+  return ffmpeg_arguments(plan, subtitles, chapters, output);
 }
 
 constexpr const char *kPackage = "ffmpeg", *kMatroskaPackage = "mkvtoolnix";
@@ -112,12 +131,11 @@ ChildOutcome try_small(const MoviePlan& plan) {
   MoviePlan small = plan;
   small.frames = {kSide, kSide};
   small.first = 0, small.count = 1;
-  const Subtitles subtitles =
-      subtitle_file(plan.subtitles.substr(0, plan.subtitles.find("Dialogue")));
+  const TextFile subtitles = text_file(plan.subtitles.substr(0, plan.subtitles.find("Dialogue")));
   const MemoryFile made("a movie on trial"), wrapped("a movie on trial");
   std::vector<int> kept{made.number()};
   if (subtitles) kept.push_back(subtitles->number());
-  ChildProgram ffmpeg(movie_arguments(small, subtitles, made.number()), kept, kPackage);
+  ChildProgram ffmpeg(movie_arguments(small, subtitles, nullptr, made.number()), kept, kPackage);
   const std::vector<unsigned short> black(std::size_t{3} * kSide * kSide);
   ffmpeg.write(black.data(), black.size() * sizeof black[0]);
   ChildOutcome outcome = ffmpeg.wait();
@@ -158,12 +176,14 @@ MovieFile::MovieFile(const std::filesystem::path& path, const MoviePlan& plan)
       count_(plan.count),
       rate_(plan.rate),
       file_(path),
-      subtitles_(subtitle_file(plan.subtitles)) {
+      subtitles_(text_file(plan.subtitles)),
+      chapters_(text_file(plan.chapters)) {
   if (plan.preset.whole_sphere) flat_.emplace(path);
   std::vector<int> kept{by_ffmpeg()};
-  if (subtitles_) kept.push_back(subtitles_->number());
-  ffmpeg_ = std::make_unique<ChildProgram>(movie_arguments(plan, subtitles_, by_ffmpeg()), kept,
-                                           kPackage);
+  for (const TextFile* text : {&subtitles_, &chapters_})
+    if (*text) kept.push_back((*text)->number());
+  ffmpeg_ = std::make_unique<ChildProgram>(
+      movie_arguments(plan, subtitles_, chapters_, by_ffmpeg()), kept, kPackage);
 }
 
 void MovieFile::add(const RowPicture& frame) {

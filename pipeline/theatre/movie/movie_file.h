@@ -23,7 +23,8 @@ struct MoviePlan {
   int first = 0, count = 0;  // of the show's frames
   ColourTags tags;
   Sound sound;
-  std::string subtitles;  // the text of burn_in.h, or empty
+  std::string subtitles;   // the text of burn_in.h, or empty
+  std::string chapters{};  // the text of chapters.h, or empty
 };
 
 // Makes a movie of one small black frame and the first sound, as the whole would be made, and
@@ -59,8 +60,8 @@ class MovieFile {
   int count_, added_ = 0;
   FrameRate rate_;
   TemporaryFile file_;
-  std::optional<TemporaryFile> flat_;      // before a player knows that it is a sphere
-  std::unique_ptr<MemoryFile> subtitles_;  // none where the movie has none
+  std::optional<TemporaryFile> flat_;                 // before a player knows that it is a sphere
+  std::unique_ptr<MemoryFile> subtitles_, chapters_;  // none where the movie has none
   std::unique_ptr<ChildProgram> ffmpeg_;
 };
 

@@ -16,6 +16,7 @@
 #include "pipeline/render/frames/progress.h"
 #include "pipeline/render/keyed_renderer.h"
 #include "pipeline/theatre/movie/burn_in.h"
+#include "pipeline/theatre/movie/chapters.h"
 
 namespace domefall {
 namespace {
@@ -56,6 +57,7 @@ MoviePlan plan_movie(const MoviePreset& preset, const Show& show, const std::vec
                  {},
                  std::move(sound),
                  preset.burn_in ? burn_in(show, {frames.front()}, made) : std::string()};
+  plan.chapters = chapters(show, plan.first, plan.count);
   require_fitting(preset, plan.rate, plan.sound);
   const double least = least_bytes(preset, made, plan.count, plan.rate, plan.sound.channels);
   require_room(

@@ -89,7 +89,8 @@ TEST_F(ShowTimes, MistakesInThemAreTold) {
       {"markers: {door: open}\n" + lasting("30"),
        "1:17: markers.door must be a number (seconds), got 'open'"},
       {"markers: [0:34]\n" + lasting("30"),
-       "1:10: markers must be a map of names and times, e.g. {door_opens: 0:34}, got a list"},
+       "1:10: markers must be a map of names and times, e.g. {door_opens: 0:34}, or a file such as "
+       "cut.otio, got a list"},
       {"markers: {a: 1, a: 2}\n" + lasting("30"), "1:17: markers.a is repeated"},
   });
 }
