@@ -21,7 +21,8 @@ class OtioReader {
   OtioReader(const std::filesystem::path& file, const Json& root) : file_(file), root_(root) {}
 
   std::vector<Marker> read() {
-    if (schema(Place()) != "Timeline") fail(Place(), "is no OTIO timeline (OTIO_SCHEMA Timeline.1)");
+    if (schema(Place()) != "Timeline")
+      fail(Place(), "is no OTIO timeline (OTIO_SCHEMA Timeline.1)");
     const Place stack = Place("/tracks");
     const double begin = range_start(stack);
     add_markers(stack, 0, begin);
