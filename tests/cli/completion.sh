@@ -52,7 +52,7 @@ offers 'domefall stars import au' auto
 offers 'domefall stars import auto notes.txt m' mix.wav 'my shows'
 
 # Every option of every verb's --help is offered.
-for verb in check render grade preview movie deliver sheet states probe trace report \
+for verb in check render grade preview movie deliver sheet timeline states probe trace report \
   'stars import' 'stars info' 'sky import' 'sky build' 'sky check' 'sky info'; do
   # shellcheck disable=SC2086
   "$DOMEFALL" $verb --help | sed -n '/^Options/,/^$/p' | grep -oE -- '^  (-h,)?--[a-z-]+(,--[a-z-]+)*' |

@@ -225,6 +225,10 @@ fi
 # The contact sheet alone.
 exits 0 "$DOMEFALL" sheet fall.yaml --from made --out sheet.png
 exits 0 pngcheck -q sheet.png
+exits 0 "$DOMEFALL" sheet fall.yaml --from made --frames 2-4 --out strip.png
+wide_of() { identify -format %w "$1"; }
+[ "$(wide_of strip.png)" -lt "$(wide_of sheet.png)" ] || fail "three frames take $(wide_of strip.png) columns"
+exits 2 "$DOMEFALL" sheet fall.yaml --from made --frames 0-99 --out strip.png
 rm made/graded/fall_00005.png
 exits 75 "$DOMEFALL" sheet fall.yaml --from made --out again.png
 says 'missing: 5$'

@@ -81,9 +81,19 @@ void deliver(const DeliverOptions& o) {
 }
 
 struct SheetOptions {
-  std::string show, from, out, size;
+  std::string show, from, out, size, frames;
   int threads = 0;
 };
+
+// Returns the frames of a sheet: those that are named, or some of all.
+std::vector<int> shown_frames(const std::string& named, int count) {
+  if (named.empty()) return frames_of_sheet(count);
+  const std::vector<int> frames = parse_frames(named, count);
+  if (std::ssize(frames) > kMostOnSheet)
+    throw InputError(fmt::format("--frames {}: a sheet has room for {} frames, got {}", named,
+                                 kMostOnSheet, frames.size()));
+  return frames;
+}
 
 void make_sheet(const SheetOptions& o) {
   GradedFormat format = format_by_name(o.out);
@@ -93,7 +103,7 @@ void make_sheet(const SheetOptions& o) {
   OutputFile out(o.out);
   const Grader grader(show.grade);
   const GradedFrames frames(show, grader, frames_folder(show, o.from));
-  const std::vector<int> shown = frames_of_sheet(frame_count(show));
+  const std::vector<int> shown = shown_frames(o.frames, frame_count(show));
   const int threads = frames_at_once(show, all_threads(o.threads));
   frames.check(shown, threads, kOtherFramesHint, {});
   std::vector<std::string> labels;
@@ -143,6 +153,8 @@ void add_sheet(CLI::App& app) {
   verb->add_option("--out", o->out, "picture to write, .png, .tif or .jpg")
       ->type_name(kFileType)
       ->required();
+  verb->add_option("--frames", o->frames, "up to 36: 7, 0-299x10, 100-135; default some of all")
+      ->type_name("FRAMES");
   verb->add_option("--size", o->size, "of the frames, where it is not the show's")
       ->type_name("SIZE");
   verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));

@@ -13,7 +13,7 @@
 namespace domefall {
 namespace {
 
-constexpr int kSheetColumns = 6, kMostOnSheet = 36;
+constexpr int kSheetColumns = 6;
 
 // Returns the pixel of `from` at which part `k` of `to` begins.
 int part_begin(int k, int from, int to) {

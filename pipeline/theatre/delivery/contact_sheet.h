@@ -17,7 +17,9 @@ GradedFrame reduced_picture(const GradedFrame& picture, int columns, int rows);
 // A picture on a sheet has at most this many columns and rows.
 inline constexpr int kSheetPicture = 256;
 
-// Returns at most 36 of `count` frames, evenly spread.
+inline constexpr int kMostOnSheet = 36;
+
+// Returns at most kMostOnSheet of `count` frames, evenly spread.
 std::vector<int> frames_of_sheet(int count);
 
 struct SheetPicture {
