@@ -68,7 +68,9 @@ export class Instruments {
     $('i-frame').textContent = `${frame} of ${show.frames}`;
     $('i-r').textContent = r === null ? 'flat space' : `${digits(r)} M · ${region}`;
     $('i-clock').textContent = show.mass_solar ? `${digits(tau)} M · ${digits(tau * seconds, 4)} s` : `${digits(tau)} s`;
-    $('i-speed').textContent = `${digits(this.at('speed', frame))} c`;
+    // Inside a horizon nothing is at rest, and the speed is that against a free fall.
+    const inside = region === 'II' || region === 'IV';
+    $('i-speed').textContent = `${digits(this.at('speed', frame))} c${inside ? ' against free fall' : ''}`;
     $('i-shift').textContent = digits(this.at('shift_ahead', frame));
     $('i-view').textContent = view;
     this.mark(frame / show.frames_per_second);
