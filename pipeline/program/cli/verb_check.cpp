@@ -77,10 +77,12 @@ void check(const std::string& file, const std::string& out, bool json) {
   for (const ShowWarning& warning : axis.warnings()) report.warnings.push_back(warning);
   for (const ShowWarning& warning : bodies.warnings()) report.warnings.push_back(warning);
   for (const ShowWarning& warning : title_warnings(show)) report.warnings.push_back(warning);
+  report.light = survey_light(show, renderer, grade);
+  for (const ShowWarning& warning : light_warnings(show, renderer, report.light))
+    report.warnings.push_back(warning);
   std::stable_sort(report.warnings.begin(), report.warnings.end(),
                    [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   if (grade) report.display = grade->display(), report.view = grade->view();
-  report.light = survey_light(show, renderer, grade);
   report.time = time_to_render(show, grade);
   if (const std::string lack = lack_of_room(report); !lack.empty())
     report.warnings.push_back({0, 0, kWholeShow, lack});

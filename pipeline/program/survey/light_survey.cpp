@@ -1,8 +1,12 @@
 #include "pipeline/program/survey/light_survey.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "pipeline/render/reduced_frame.h"
 #include "pipeline/sources/colour/colour_space.h"
@@ -78,6 +82,22 @@ class LightMeter {
   std::optional<Grader> grader_;  // with the CDL of the frame that was measured last
 };
 
+FrameLight measured(const Show& show, int frame, int width, Renderer& renderer, LightMeter& meter) {
+  const FrameState state = reduced(frame_state(show, frame), width);
+  FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, state.fade};
+  meter.measure(renderer.render(state), state, light);
+  return light;
+}
+
+// Returns by which part of itself the light differs, apart from exposures and fades.
+double step(const FrameLight& a, const FrameLight& b) {
+  const auto bare = [](const FrameLight& light) {
+    return light.fade > 0 ? light.mean / (light.fade * std::exp2(light.ev)) : 0;
+  };
+  const double most = std::max(bare(a), bare(b));
+  return std::min(bare(a), bare(b)) > 0 ? std::abs(bare(a) - bare(b)) / most : 0;
+}
+
 }  // namespace
 
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader) {
@@ -90,14 +110,11 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
     // The samples are spread evenly from the first frame to the last.
     const int frame =
         samples > 1 ? static_cast<int>(static_cast<long>(count - 1) * k / (samples - 1)) : 0;
-    const FrameState state = reduced(frame_state(show, frame), kSurveyWidth);
-    FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, state.fade};
-    meter.measure(renderer.render(state), state, light);
-    lights.push_back(light);
+    lights.push_back(measured(show, frame, kSurveyWidth, renderer, meter));
   }
   const auto darker = [](const FrameLight& a, const FrameLight& b) { return a.mean < b.mean; };
   LightSurvey found;
-  found.frames = samples;
+  found.frames = lights;
   found.brightest = *std::max_element(lights.begin(), lights.end(), darker);
   double highest = -HUGE_VAL;
   // A fade counts like an exposure that is lower by its logarithm in stops.
@@ -107,6 +124,39 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
                 [&](const FrameLight& light) { return stops(light) < highest - kFadeStops; });
   found.darkest = *std::min_element(lights.begin(), lights.end(), darker);
   return found;
+}
+
+std::vector<ShowWarning> light_warnings(const Show& show, Renderer& renderer,
+                                        const LightSurvey& survey) {
+  constexpr std::size_t kMostPairs = 16;
+  constexpr int kSureWidth = 256;
+  std::vector<std::pair<FrameLight, FrameLight>> pairs;
+  for (std::size_t k = 1; k < survey.frames.size(); ++k)
+    if (step(survey.frames[k - 1], survey.frames[k]) > kLargestLightStep)
+      pairs.emplace_back(survey.frames[k - 1], survey.frames[k]);
+  std::ranges::stable_sort(pairs, std::greater(),
+                           [](const auto& pair) { return step(pair.first, pair.second); });
+  pairs.resize(std::min(pairs.size(), kMostPairs));
+  LightMeter meter(nullptr);
+  std::vector<ShowWarning> warnings;
+  for (auto& [a, b] : pairs) {
+    while (b.frame - a.frame > 1 && step(a, b) > kLargestLightStep) {
+      const FrameLight middle =
+          measured(show, (a.frame + b.frame) / 2, kSurveyWidth, renderer, meter);
+      (step(a, middle) > step(middle, b) ? b : a) = middle;
+    }
+    // A cut from one segment to the next is meant.
+    if (!(step(a, b) > kLargestLightStep) || a.segment != b.segment) continue;
+    // So small a frame may have missed bright edges of a sky.
+    a = measured(show, a.frame, kSureWidth, renderer, meter);
+    b = measured(show, b.frame, kSureWidth, renderer, meter);
+    if (!(step(a, b) > kLargestLightStep)) continue;
+    warnings.push_back({b.time_s, b.frame, b.segment,
+                        fmt::format("the mean light jumps from {:.2g} to {:.2g} between two frames",
+                                    a.mean, b.mean)});
+  }
+  std::ranges::stable_sort(warnings, {}, &ShowWarning::frame);
+  return warnings;
 }
 
 }  // namespace domefall

@@ -1,9 +1,10 @@
 // A light survey says how bright a show is, measured on small frames of it.
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "pipeline/grade/grader.h"
+#include "pipeline/program/survey/show_warnings.h"
 #include "pipeline/render/reduced_frame.h"
 
 namespace domefall {
@@ -27,12 +28,22 @@ struct LightSurvey {
   // The darkest frame is sought among those whose exposure is within 3 stops of the highest, which
   // leaves out fades.
   FrameLight darkest;
-  int frames = 0;  // number of measured frames
+  std::vector<FrameLight> frames;  // that were measured, in order
 };
 
 // Measures one frame for each second of the show, but at least 2 and at most 60, at a width of 48
 // pixels.  `grader` is null for a show without a grade.  Means agree with those of large frames to
 // a few percent, since stars at a small size are as bright and only larger.
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader);
+
+// From one frame to the next the mean light may change by this part of itself.
+inline constexpr double kLargestLightStep = 0.2;
+
+// Returns a warning for each place within a segment where the light jumps, as it does where the plane
+// of a disc is crossed.  Exposures and fades do not count.  A jump is sought between those of the
+// survey's frames that differ most, 16 pairs at most, by halves; so a flash between two of equal
+// light is not found.
+std::vector<ShowWarning> light_warnings(const Show& show, Renderer& renderer,
+                                        const LightSurvey& survey);
 
 }  // namespace domefall

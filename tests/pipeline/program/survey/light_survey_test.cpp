@@ -30,7 +30,7 @@ TEST(LightSurvey, FindsTheBrightestFrameAndKeepsItsMean) {
   show.timeline[0].curves[Channel::kEv] = Curve{{{0, -9}, {2, 0}, {3, 1}, {4, 0.5}, {6, -8}}};
   Renderer renderer(show, 2);
   const LightSurvey found = survey_light(show, renderer, nullptr);
-  EXPECT_EQ(found.frames, 7);
+  EXPECT_EQ(found.frames.size(), 7U);
   EXPECT_NEAR(found.brightest.time_s, 3, 0.1);
   EXPECT_LT(found.darkest.mean, found.brightest.mean);
   EXPECT_GE(found.darkest.ev, found.brightest.ev - 3);
@@ -52,6 +52,36 @@ TEST(LightSurvey, SeesTheLightOfFaintStarsByFewerBrighterOnes) {
   const LightSurvey found = survey_light(show, small, nullptr);
   const HalfFrame frame = large.render(frame_state(show, 0));
   EXPECT_NEAR(found.brightest.mean / mean_light(frame, show.projection), 1, 0.05);
+}
+
+// Who crosses the plane of a disc within its rims sees its light jump there, and nowhere else.
+TEST(LightWarnings, FindTheCrossingOfADisc) {
+  Show show = show_of(CircularOrbit{12}, Domemaster{256});
+  show.spacetime = Schwarzschild{1e6};
+  show.timeline[0].duration_s = 8;
+  show.timeline[0].timing.tau_end = 120;
+  show.timeline[0].curves[Channel::kEv] = Curve{{{0, -6}, {1, 0}, {8, 0}}};
+  show.timeline[0].camera.attitude = LookAtHole{};
+  Renderer plain(show, 2);
+  EXPECT_TRUE(light_warnings(show, plain, survey_light(show, plain, nullptr)).empty());
+  show.disc = Disc{};
+  const auto height = [&](int frame) {
+    const M33d& axes = frame_state(show, frame).observer.sky_from_tetrad;
+    return column(axes, 0).dot(show.disc->normal.v);
+  };
+  // The plane holds the place of frame 100.5, so that it is crossed before frame 101.
+  const M33d axes = frame_state(show, 100).observer.sky_from_tetrad;
+  const M33d next = frame_state(show, 101).observer.sky_from_tetrad;
+  const V3d place = (column(axes, 0) + column(next, 0)).normalized();
+  const V3d north = -column(axes, 1);
+  show.disc->normal = {(north + place.cross(north) * 0.6).normalized()};
+  show.disc->node = {place};
+  ASSERT_LT(height(100) * height(101), 0);
+  Renderer renderer(show, 2);
+  const auto warnings = light_warnings(show, renderer, survey_light(show, renderer, nullptr));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].frame, 101);
+  EXPECT_NE(warnings[0].text.find("the mean light jumps from"), std::string::npos);
 }
 
 }  // namespace
