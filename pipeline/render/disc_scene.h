@@ -20,6 +20,7 @@ struct DiscScene {
               light ? &*light : nullptr) {
     if (light) disc.emplace(scene);
   }
+  ~DiscScene() = default;
   DiscScene(const DiscScene&) = delete;
   DiscScene& operator=(const DiscScene&) = delete;
 

@@ -102,8 +102,8 @@ class BandLayers {
 
   // Returns where a disc says how much of the light behind it is left.
   float* left() { return rows_.left.data(); }
-  // Leaves that part of all light so far, behind a layer that hides the rest.
-  void hide_behind(Layer layer) {
+  // As take, of a layer that leaves that part of all light behind it and hides the rest.
+  void take_hiding(Layer layer, const float* rgb) {
     rows_.hider = layer;
     const std::vector<float>& left = rows_.left;
     const auto dim = [&](std::vector<float>& light) {
@@ -113,6 +113,7 @@ class BandLayers {
     dim(rows_.before);
     for (LayerImage<T>& image : frame_.layers)
       if (is_taken(image.layer)) dim(light_of(image.layer));
+    take(layer, rgb);
   }
 
   void store(int row, ColumnRange inside) {
@@ -263,8 +264,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
       layers->move(Layer::kStars, Layer::kSky, *drawn.crowded_skies, splats);
     if (drawn.disc) {
       drawn.disc->draw_rows(first, end, rgb.data(), layers ? layers->left() : nullptr);
-      if (layers) layers->hide_behind(Layer::kDisc);
-      if (layers) layers->take(Layer::kDisc, rgb.data());
+      if (layers) layers->take_hiding(Layer::kDisc, rgb.data());
     }
     if (drawn.bodies) {
       drawn.bodies->draw_band(band, splats, rgb.data());
@@ -273,8 +273,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
     if (drawn.mattes) drawn.mattes->fill_rows(first, end, rgb.data(), splats, frame.mattes);
     for (int row = first; row < end; ++row) {
       const ColumnRange inside = inside_columns(scene.projection(), row);
-      store_row(rgb.data() + static_cast<std::size_t>(row - first) * stride, row, inside,
-                frame.picture);
+      store_row(&rgb[static_cast<std::size_t>(row - first) * stride], row, inside, frame.picture);
       if (layers) layers->store(row, inside);
     }
   };

@@ -88,7 +88,7 @@ struct SheetOptions {
 // Returns the frames of a sheet: those that are named, or some of all.
 std::vector<int> shown_frames(const std::string& named, int count) {
   if (named.empty()) return frames_of_sheet(count);
-  const std::vector<int> frames = parse_frames(named, count);
+  std::vector<int> frames = parse_frames(named, count);
   if (std::ssize(frames) > kMostOnSheet)
     throw InputError(fmt::format("--frames {}: a sheet has room for {} frames, got {}", named,
                                  kMostOnSheet, frames.size()));

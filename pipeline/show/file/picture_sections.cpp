@@ -118,8 +118,9 @@ std::set<std::size_t> read_parts(const Section& s, const char* key, bool linear,
 }
 
 std::vector<Layer> read_layers(const Section& s, bool linear) {
-  std::vector<std::string_view> known;
-  for (const LayerKind& kind : kLayers) known.push_back(kind.name);
+  std::vector<std::string_view> known(kLayers.size());
+  std::transform(kLayers.begin(), kLayers.end(), known.begin(),
+                 [](const LayerKind& kind) { return kind.name; });
   std::vector<Layer> layers;  // in the order of drawing
   for (const std::size_t index : read_parts(s, "layers", linear, known))
     layers.push_back(static_cast<Layer>(index));
