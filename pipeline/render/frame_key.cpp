@@ -196,6 +196,14 @@ std::string FrameKeys::instant(const FrameState& state) const {
   if (!is_flat(o) && std::holds_alternative<RingsSky>(singularity))
     digest.add(rounded_for_key(o.null_time));
   if (show_.disc && show_.disc->pattern) digest.add("pattern").add(rounded_for_key(o.null_time));
+  // What has the show's own light adds nothing.
+  if (show_.disc &&
+      (state.settings.disc_gain != 1 || state.settings.disc_opacity != show_.disc->opacity))
+    digest.add("disc light")
+        .add(rounded_for_key(state.settings.disc_gain))
+        .add(rounded_for_key(state.settings.disc_opacity));
+  if (!state.settings.magnitudes.empty()) digest.add("magnitudes");
+  for (const double magnitude : state.settings.magnitudes) digest.add(rounded_for_key(magnitude));
   if (const auto own = own_skies_.find(state.segment); own != own_skies_.end())
     digest.add("own skies").add(own->second);
   if (state.fade != 1) digest.add("fade").add(rounded_for_key(state.fade));

@@ -100,7 +100,7 @@ std::vector<BodyAtPixel> PixelProbe::bodies() const {
   const BodySight sight(state_, show_.effects, show_.least_star_radius);
   std::vector<BodyAtPixel> found;
   if (!sight.sees()) return found;
-  for (const Body& body : show_.bodies) {
+  for (const Body& body : bodies_at(show_, state_.settings)) {
     int faint = 0;
     for (int order = sight.first_order(body);
          order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {

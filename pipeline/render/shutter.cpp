@@ -31,7 +31,7 @@ double motion_of_bodies(const Show& show, const FrameState& from, const FrameSta
       after(to, show.effects, show.least_star_radius);
   if (!before.sees() || !after.sees()) return 0;
   double most = 0;
-  for (const Body& body : show.bodies) {
+  for (const Body& body : bodies_at(show, from.settings)) {
     const auto first = before.image(body, 0), last = after.image(body, 0);
     if (!first || !last) continue;
     const BodySight::Seen at = before.seen(first->at);

@@ -38,8 +38,7 @@ class Turn {
     const V3d before =
         to_.turns.empty() ? followed(steps).back() : to_.turns[static_cast<std::size_t>(steps) - 1];
     const V3d turn = turn_at(t, observer, before);
-    const double done = to_.ease == Ease::kSmooth ? smooth_step(x) : x;
-    return turned_by(axes(from_, t, observer), turn * done);
+    return turned_by(axes(from_, t, observer), turn * eased(to_.ease, x));
   }
 
   // Returns the rotations at the first `steps` steps of the way.  Each continues the one before it,

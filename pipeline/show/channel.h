@@ -27,6 +27,8 @@ enum class Channel {
   kMaxMagnitudeI,  // of the faintest stars taken
   kMaxMagnitudeIII,
   kMaxMagnitudeIV,
+  kDiscLuminance,
+  kDiscOpacity,
   kSlopeR,  // of the CDL; each triple is red, green and blue
   kSlopeG,
   kSlopeB,
@@ -38,7 +40,7 @@ enum class Channel {
   kPowerB,
   kSaturation
 };
-inline constexpr std::size_t kChannels = 24;
+inline constexpr std::size_t kChannels = 26;
 
 inline constexpr std::array<Channel, kChannels> kEveryChannel = [] {
   std::array<Channel, kChannels> all{};
@@ -119,6 +121,8 @@ inline std::string key_of(Channel channel) {
                                                           "sky.region_I.stars.max_magnitude",
                                                           "sky.region_III.stars.max_magnitude",
                                                           "sky.region_IV.stars.max_magnitude",
+                                                          "disc.luminance_cd_m2",
+                                                          "disc.opacity",
                                                           "grade.cdl.slope",
                                                           "grade.cdl.slope",
                                                           "grade.cdl.slope",

@@ -16,14 +16,21 @@ double secant(const Keys& keys, std::size_t k) {
   return (keys[k].value - keys[k - 1].value) / (keys[k].at_s - keys[k - 1].at_s);
 }
 
+// A clock that goes from standstill to full speed, or back, has twice the mean speed at its fast
+// end.  These are the slopes of eased() at both ends.
+double first_slope(Ease ease) {
+  return ease == Ease::kLinear ? 1 : ease == Ease::kEasedOut ? 2 : 0;
+}
+double last_slope(Ease ease) { return ease == Ease::kLinear ? 1 : ease == Ease::kEasedIn ? 2 : 0; }
+
 // Returns the curve's slope at key k, as value_at describes it.
 double slope_at(const Keys& keys, std::size_t k) {
   if (k == 0 || k + 1 == keys.size()) return 0;
   const Ease before = keys[k].ease, after = keys[k + 1].ease;
   if (before == Ease::kHold || after == Ease::kHold) return 0;
   const double in = secant(keys, k), out = secant(keys, k + 1);
-  if (before == Ease::kLinear) return in;
-  if (after == Ease::kLinear) return out;
+  if (before != Ease::kSmooth) return in * last_slope(before);
+  if (after != Ease::kSmooth) return out * first_slope(after);
   return monotone_slope(keys[k].at_s - keys[k - 1].at_s, in, keys[k + 1].at_s - keys[k].at_s, out);
 }
 
@@ -62,13 +69,29 @@ double value_at(const Curve& curve, double t) {
   if (next == keys.end()) return keys.back().value;
   const auto k = static_cast<std::size_t>(next - keys.begin());
   const CurveKey &from = keys[k - 1], &to = keys[k];
-  if (to.ease == Ease::kHold) return from.value;
   const double h = to.at_s - from.at_s, x = (t - from.at_s) / h;
-  if (to.ease == Ease::kLinear) return from.value + x * (to.value - from.value);
+  if (to.ease != Ease::kSmooth) return from.value + eased(to.ease, x) * (to.value - from.value);
   const double chord = secant(keys, k);
   return HermiteCubic(from.value, to.value, tamed(slope_at(keys, k - 1), chord) * h,
                       tamed(slope_at(keys, k), chord) * h)
       .at(x);
+}
+
+double eased(Ease ease, double x) {
+  switch (ease) {
+    case Ease::kSmooth:
+    case Ease::kEased:
+      return smooth_step(x);
+    case Ease::kLinear:
+      return x;
+    case Ease::kHold:
+      return 0;
+    case Ease::kEasedIn:
+      return part_passed(0, 2, x);
+    case Ease::kEasedOut:
+      return part_passed(2, 0, x);
+  }
+  return x;
 }
 
 double largest(const Curve& curve) {

@@ -10,8 +10,15 @@ namespace domefall {
 enum class Ease {
   kSmooth,  // monotone and without a kink
   kLinear,
-  kHold,  // the value before stays until the keyframe, where it jumps
+  kHold,      // the value before stays until the keyframe, where it jumps
+  kEased,     // from standstill to standstill
+  kEasedIn,   // from standstill
+  kEasedOut,  // to standstill
 };
+
+// Returns the part of the change that has happened when the part x, 0 to 1, of the time between two
+// keyframes has passed.  Between two alone, kSmooth goes from standstill to standstill too.
+double eased(Ease ease, double x);
 
 struct CurveKey {
   double at_s;  // show seconds
@@ -27,8 +34,9 @@ struct Curve {
 // Returns the value at t seconds of show.  Before the first key it is that of the first key, after
 // the last key that of the last.  A smooth stretch is a cubic with a slope for each end.  Between
 // two smooth stretches the slope is the weighted harmonic mean of their secants, or 0 at an extreme
-// (Fritsch and Butland 1984), so that the curve is monotone wherever its keys are.  Beside a linear
-// stretch it is the slope of the line.  At the curve's ends and beside a hold it is 0.
+// (Fritsch and Butland 1984), so that the curve is monotone wherever its keys are.  Beside another
+// stretch it is the slope that this one has there, and 0 beside a hold.  At the curve's ends it is
+// 0.
 double value_at(const Curve& curve, double t);
 
 // Returns the largest value of a curve, which is that of a key, since no stretch leaves the values

@@ -8,7 +8,7 @@
 namespace domefall {
 namespace {
 
-// Returns exposure and skies of a segment at t, where curves go before the values of the show.
+// Returns the settings of a segment at t, where curves go before the values of the show.
 FrameSettings settings_at(const Show& show, const Segment& s, double t) {
   FrameSettings settings;
   settings.ev = value_at(s, Channel::kEv, t, show.exposure.ev);
@@ -23,6 +23,16 @@ FrameSettings settings_at(const Show& show, const Segment& s, double t) {
     // A curve of a single key does not change.
     sky.soft_limit = limit && limit->keys.size() > 1;
   }
+  if (show.disc) {
+    const double luminance = show.disc->luminance;
+    settings.disc_gain = value_at(s, Channel::kDiscLuminance, t, luminance) / luminance;
+    settings.disc_opacity = value_at(s, Channel::kDiscOpacity, t, show.disc->opacity);
+  }
+  if (std::ranges::none_of(s.magnitudes, [](const auto& curve) { return curve.has_value(); }))
+    return settings;
+  for (std::size_t k = 0; k < show.bodies.size(); ++k)
+    settings.magnitudes.push_back(s.magnitudes[k] ? value_at(*s.magnitudes[k], t)
+                                                  : show.bodies[k].magnitude);
   return settings;
 }
 
@@ -125,6 +135,13 @@ FrameState state_at(const Show& show, int segment, int frame, double t, const Pr
 }
 
 }  // namespace
+
+std::vector<Body> bodies_at(const Show& show, const FrameSettings& settings) {
+  std::vector<Body> bodies = show.bodies;
+  for (std::size_t k = 0; k < settings.magnitudes.size(); ++k)
+    bodies[k].magnitude = settings.magnitudes[k];
+  return bodies;
+}
 
 FrameState frame_state(const Show& show, int frame) {
   const double t = frame / show.frames_per_second;

@@ -10,8 +10,8 @@
 
 namespace domefall {
 
-// FrameSettings hold the exposure and the skies' numbers at one instant, which keyframes may have
-// changed.
+// FrameSettings hold the exposure and the numbers of skies, disc and bodies at one instant, which
+// keyframes may have changed.
 struct FrameSettings {
   struct Sky {
     double background_gain = 1, star_gain = 1;
@@ -22,6 +22,9 @@ struct FrameSettings {
   };
   double ev = 0;
   PerSky<Sky> sky;  // of region IV only background_gain is used
+  // The disc's light is that of Show::disc times the gain.
+  double disc_gain = 1, disc_opacity = 1;
+  std::vector<double> magnitudes;  // of the show's bodies; empty where none is keyframed
 };
 
 struct FrameState {
@@ -42,6 +45,9 @@ struct FrameState {
   std::shared_ptr<const FrameState> vanishing;
   double vanishing_part = 0;
 };
+
+// Returns the bodies of a show with the magnitudes that they have then.
+std::vector<Body> bodies_at(const Show& show, const FrameSettings& settings);
 
 // Returns the state of a frame, from 0 to frame_count(show) - 1.  Frame n shows the instant n /
 // frames_per_second.

@@ -10,6 +10,17 @@ double value_at(const Segment& segment, Channel channel, double t, double consta
   return curve ? value_at(*curve, t) : constant;
 }
 
+std::vector<std::pair<std::string, const Curve*>> curves_of(const Show& show,
+                                                            const Segment& segment) {
+  std::vector<std::pair<std::string, const Curve*>> curves;
+  for (const Channel channel : kEveryChannel)
+    if (segment.curves[channel]) curves.emplace_back(key_of(channel), &*segment.curves[channel]);
+  for (std::size_t k = 0; k < segment.magnitudes.size(); ++k)
+    if (segment.magnitudes[k])
+      curves.emplace_back("bodies." + show.bodies[k].name + ".magnitude", &*segment.magnitudes[k]);
+  return curves;
+}
+
 const SkyBackground& background_of(const Show& show, int segment, SkyRegion region) {
   const auto k = static_cast<std::size_t>(segment);
   const bool own = k < show.timeline.size() && show.timeline[k].backgrounds[region];

@@ -130,6 +130,8 @@ struct Segment {
   // A channel has a curve if the show or the segment keyframes it, or if the segment has a value of
   // its own for it.
   PerChannel<std::optional<Curve>> curves;
+  // In the same way, of the bodies of the show in their order.
+  std::vector<std::optional<Curve>> magnitudes;
   PerSky<std::optional<SkyBackground>> backgrounds;  // none where the show's stays
 };
 
@@ -315,6 +317,10 @@ const SkyBackground& background_of(const Show& show, int segment, SkyRegion regi
 
 // Returns the value of a channel t seconds into the show: that of its curve, or else `constant`.
 double value_at(const Segment& segment, Channel channel, double t, double constant);
+
+// Returns each curve of a segment with its key in show files.
+std::vector<std::pair<std::string, const Curve*>> curves_of(const Show& show,
+                                                            const Segment& segment);
 
 // Returns the show seconds at which each segment begins and, as the last element, at which the show
 // ends.

@@ -21,8 +21,10 @@ off_by() {
     "$1" --ch titles.R,titles.G,titles.B --chnames r,g,b --add \
     "$1" --ch R,G,B --chnames r,g,b --sub --abs \
     "$1" --ch R,G,B --chnames r,g,b --addc 0.001 --div -d float -o off.exr
-  oiiotool --stats off.exr | awk '/Stats Max/ { for (k = 3; k < 6; ++k) if ($k > most) most = $k; print most }'
+  most off.exr
 }
+# most FILE: the largest value of its channels.
+most() { oiiotool --stats "$1" | awk '/Stats Max/ { for (k = 3; k <= NF; ++k) if ($k + 0 > most) most = $k + 0; print most }'; }
 
 # Frames of every shipped show, those of the demo among them.  Halves round by 1/2048 of themselves,
 # once for the picture and once for each layer.
@@ -73,6 +75,18 @@ exits 0 "$DOMEFALL" render floats.yaml --size 64 --frames "$number" --out floats
 off=$(off_by "floats/linear/$(basename "$frame")")
 awk -v off="$off" 'BEGIN { exit !(off < 1e-3) }' || fail "floats are off by $off"
 
+# A disc that a compositor makes a third darker is the one that a keyframe makes a third darker.
+sed '/^output:/d; 0,/{at_s: 0,/s//{at_s: 0, disc: {luminance_cd_m2: 6.6666666667e-4},/' disc.yaml >dimmed.yaml
+printf 'output: {graded: none, name: f}\n' >>dimmed.yaml
+exits 0 "$DOMEFALL" render dimmed.yaml --size 96 --frames "$number" --out dimmed
+dimmed=dimmed/linear/$(basename "$frame")
+oiiotool "$frame" --ch R,G,B --chnames r,g,b "$frame" --ch disc.R,disc.G,disc.B --chnames r,g,b --divc 3 --sub \
+  "$dimmed" --ch R,G,B --chnames r,g,b --sub --abs "$dimmed" --ch R,G,B --chnames r,g,b --addc 0.001 --div \
+  -d float -o off.exr
+oiiotool "$frame" --ch R,G,B "$dimmed" --ch R,G,B --sub --abs -o change.exr
+awk -v off="$(most off.exr)" -v change="$(most change.exr)" 'BEGIN { exit !(off < 0.003 && change > 0.1) }' ||
+  fail "a dimmed disc is off by $(most off.exr), of a change of $(most change.exr)"
+
 # Mattes and identities: each body's matte is found again by its name, from the manifest.
 sed '/^output:/d' beacon.yaml >data.yaml
 cat >>data.yaml <<'END'
@@ -100,7 +114,6 @@ extract() {
   done
   oiiotool "${ranks[@]}" -o extracted.exr
 }
-most() { oiiotool --stats "$1" | awk '/Stats Max/ { print $3 }'; }
 for body in first:body_1 second:body_2; do
   extract "${body%:*}"
   oiiotool extracted.exr "$file" --ch "${body#*:}.A" --sub --abs -o off.exr

@@ -49,22 +49,22 @@ Json segments_of(const Show& show) {
   return list;
 }
 
-const char* group_of(Channel channel) {
-  if (channel < Channel::kEv) return "camera";
-  if (channel == Channel::kEv) return "exposure";
-  return channel < Channel::kSlopeR ? "sky" : "grade";
+// Returns the section that a key is in.  Keys of the camera stand alone.
+std::string section_of(const std::string& key) {
+  const std::size_t end = key.find('.');
+  return end == std::string::npos ? "camera" : key.substr(0, end);
 }
 
-// Returns each instant at which something is keyframed, once for camera, exposure, sky and grade,
-// because keyframes of the show stand in each of its segments.
+// Returns each instant at which something is keyframed, once for each section, because keyframes of
+// the show stand in each of its segments.
 Json keyframes_of(const Show& show) {
   std::set<std::pair<double, std::string>> keys;
   const double end = end_of(show);
   for (const Segment& segment : show.timeline) {
     for (const AttitudeKey& key : segment.attitudes) keys.emplace(key.at_s, "camera");
-    for (const Channel channel : kEveryChannel)
-      if (const auto& curve = segment.curves[channel]; curve && curve->keys.size() > 1)
-        for (const CurveKey& key : curve->keys) keys.emplace(key.at_s, group_of(channel));
+    for (const auto& [name, curve] : curves_of(show, segment))
+      if (curve->keys.size() > 1)
+        for (const CurveKey& key : curve->keys) keys.emplace(key.at_s, section_of(name));
   }
   Json list = Json::array();
   for (const auto& [at_s, what] : keys)

@@ -152,10 +152,9 @@ class Holds {
   void all() {
     for (int k = 0; k < static_cast<int>(show_.timeline.size()); ++k) {
       const Segment& segment = segment_of(show_, k);
-      for (const Channel channel : kEveryChannel)
+      for (const auto& [key, curve] : curves_of(show_, segment))
         // A jump of the exposure is found when frames are compared.
-        if (segment.curves[channel] && channel != Channel::kEv)
-          of_curve(k, *segment.curves[channel], key_of(channel));
+        if (key != key_of(Channel::kEv)) of_curve(k, *curve, key);
       for (std::size_t i = 1; i < segment.attitudes.size(); ++i)
         if (segment.attitudes[i].ease == Ease::kHold)
           add(k, segment.attitudes[i].at_s,

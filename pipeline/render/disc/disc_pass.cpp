@@ -52,7 +52,7 @@ double DiscPass::left_before(const CameraDirection& n, double psi, double width)
     const double turn = pixel.turn[0] + order * pi;
     if (turn > psi - kInPlane) break;
     const double covered = covered_part(pixel, plane_->images().interval(turn));
-    left *= 1 - scene_.disc->disc().opacity * covered;
+    left *= 1 - scene_.state.settings.disc_opacity * covered;
   }
   return left;
 }
@@ -93,7 +93,7 @@ std::vector<DiscPass::Place> DiscPass::places(const CameraDirection& n, double w
     const V3d place = plane_->place(turn, pixel.azimuth_cosine[0], sine);
     places.push_back({order, gas.r, std::atan2(place.dot(quarter_), place.dot(node_)),
                       gas.frequency_ratio, covered});
-    if (scene_.disc->disc().opacity * covered == 1) break;
+    if (scene_.state.settings.disc_opacity * covered == 1) break;
   }
   return places;
 }

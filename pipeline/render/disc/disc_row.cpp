@@ -64,7 +64,7 @@ bool DiscPass::Row::is_steady(const FrameScene& scene) {
 
 DiscPass::Row::Row(const DiscPass& pass, bool with_nodes)
     : pass_(pass),
-      exposure_(static_cast<float>(pass.scene_.exposure)),
+      exposure_(static_cast<float>(pass.scene_.exposure * pass.scene_.state.settings.disc_gain)),
       with_nodes_(with_nodes),
       strip_(pass) {
   const auto width = static_cast<std::size_t>(columns(pass.scene_.projection()));
@@ -184,7 +184,7 @@ DiscPass::Row::Node DiscPass::Row::sighted(const Crossings& crossings, int k) co
     node.sight |= static_cast<unsigned>(place) << (2 * order);
     if (place == kBeneath || place == kAbove) continue;
     node.lit = true;
-    if (pass_.scene_.disc->disc().opacity == 1) break;
+    if (pass_.scene_.state.settings.disc_opacity == 1) break;
   }
   node.clearance = clearance;
   return node;

@@ -97,7 +97,8 @@ double DiscPass::Strip::gather_division(const Crossings& crossings, int k,
         beyond_rim((p - rims.high) / length(per, rims.high_slope * division.turn_per)),
         beyond_rim((p - rims.low) / length(per, rims.low_slope * division.turn_per))};
     if (!(share.to - share.from > 1e-5)) continue;
-    const double seen = veil.lay(share.from, share.to, disc_.opacity) * division.part;
+    const double seen =
+        veil.lay(share.from, share.to, pass_.scene_.state.settings.disc_opacity) * division.part;
     taken_[static_cast<std::size_t>(k)][static_cast<std::size_t>(order)] += seen;
     shade(crossings, k, division, turn, rims, share, seen);
     left = veil.left();

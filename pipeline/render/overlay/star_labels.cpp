@@ -59,7 +59,7 @@ NamedImage named_image(const std::string& name, int order, const CameraDirection
 void append_bodies(const Show& show, const FrameState& state, std::vector<NamedImage>& found) {
   const BodySight sight(state, show.effects, show.least_star_radius);
   if (!sight.sees()) return;
-  for (const Body& body : show.bodies)
+  for (const Body& body : bodies_at(show, state.settings))
     for (int order = 0; order < 2; ++order)
       if (const auto image = sight.image(body, order)) {
         const BodySight::Seen seen = sight.seen(image->at);

@@ -38,7 +38,7 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
   // An observer who falls from region I receives its light on the horizon itself too.
-  plan.disc = show.disc && !is_flat(o) &&
+  plan.disc = show.disc && state.settings.disc_opacity > 0 && !is_flat(o) &&
               (o.region == Region::kI || (o.region == Region::kII && seen[SkyRegion::kI]));
   const auto add = [&](SkyRegion which) {
     plan.sky[which] = plan_sky(show.sky[which], background_of(show, state.segment, which),

@@ -61,7 +61,7 @@ FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePla
       stars(stars_of_skies(plan, skies)),
       background(backgrounds_of(show, frame, plan, skies, exposure)),
       disc(disc_light),
-      bodies(show.bodies) {}
+      bodies(bodies_at(show, frame.settings)) {}
 
 FrameScene::FrameScene(const FrameScene& whole, const CubemapFace& face)
     : state(looking_through(whole.state, face)),

@@ -52,8 +52,8 @@ struct FrameScene {
   const PerSky<const SceneStars*> stars;  // null where the plan has none
   // empty for a sky that is black or has stars only
   const PerSky<std::optional<SkyLight>> background;
-  const DiscLight* disc;            // null where none is seen
-  const std::vector<Body>& bodies;  // all of the show, also where none is seen
+  const DiscLight* disc;           // null where none is seen
+  const std::vector<Body> bodies;  // all of the show, also where none is seen
 
   const Projection& projection() const { return state.projection; }
   // Says whether the lens brightens backgrounds as it does stars.  In nature it does not, since a

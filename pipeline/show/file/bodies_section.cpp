@@ -153,36 +153,38 @@ double radius_of_light(const Body& body) {
   return kBodyMagnitudeDistance * std::sqrt(flux_of(body) / at_surface);
 }
 
-// Reports a body that is so large that it reaches the hole, and one with more light than the
-// renderer's floats hold.  What falls in need only be clear of the hole where its fall begins.
-void check_size(const Section& s, const Item& item, const Body& body, double horizon) {
+}  // namespace
+
+// What falls in need only be clear of the hole where its fall begins.
+void check_body(const Body& body, const Spacetime& spacetime, const Item& light,
+                const Item* own_size) {
   constexpr double kMostFlux = 1e30;  // W/m^2
-  const Item* light = s.find("magnitude") ? s.find("magnitude") : s.find("absolute_magnitude");
-  if (!light) light = &item;
+  const double horizon = spacetime.horizon();
   const auto [low, high] = reach(body.trajectory);
   const double r = low > horizon ? low : high, clear = r - horizon;
   const double radius = body.radius > 0 ? body.radius : radius_of_light(body);
   const std::string limit = fmt::format("{} (units of M)", short_number(clear));
   const std::string reason = fmt::format("it moves at r = {} M, and the horizon is at {} M",
                                          short_number(r), short_number(horizon));
-  if (!(radius < clear) && body.radius > 0)
-    s.find("radius")->fail("must stay below " + limit + ", got " + as_written(*s.find("radius")) +
-                           ": " + reason);
+  if (!(radius < clear) && own_size)
+    own_size->fail("must stay below " + limit + ", got " + as_written(*own_size) + ": " + reason);
   else if (!(radius < clear))
-    light->fail(
+    light.fail(
         fmt::format("asks for a sphere of the radius {:.3g} at {} K, which must stay below {}: {}; "
                     "give a fainter magnitude, a higher temperature_k, or a radius",
                     radius, short_number(body.temperature), limit, reason));
   else if (!(flux_of(body) < kMostFlux))
-    light->fail(
+    light.fail(
         fmt::format("asks for {:.3g} W/m^2 at {} K, which must stay below {}; give a fainter "
                     "magnitude or a higher temperature_k",
                     flux_of(body), short_number(body.temperature), short_number(kMostFlux)));
 }
 
+namespace {
+
 Body read_body(const std::string& name, const Item& item, const Show& to,
                std::optional<double> year, Lookup& lookup) {
-  const Section s(item, {"bodies"});
+  const Section s(item, {"bodies", "body.light"});
   Body body;
   body.name = name;
   const std::size_t problems = item.problems->count();
@@ -201,7 +203,9 @@ Body read_body(const std::string& name, const Item& item, const Show& to,
     body.shines_before = !begins;
   }
   read_light(s, to, body);
-  if (item.problems->count() == problems) check_size(s, item, body, to.spacetime.horizon());
+  const Item* light = s.find("magnitude") ? s.find("magnitude") : s.find("absolute_magnitude");
+  if (item.problems->count() == problems)
+    check_body(body, to.spacetime, light ? *light : item, s.find("radius"));
   return body;
 }
 

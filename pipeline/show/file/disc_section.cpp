@@ -73,7 +73,7 @@ OrbitPlane read_orbit_plane(const Section& s, const Show& to) {
 std::optional<Disc> read_disc(const Section& show, const Show& to) {
   const Item* item = show.find("disc");
   if (item == nullptr) return std::nullopt;
-  const Section s(item, {"disc"});
+  const Section s(item, {"disc", "disc.light"});
   if (to.spacetime.is_flat()) item->fail("needs a black hole: give the show black_hole.mass_solar");
   Disc disc;
   disc.plunging = s.flag("plunging");

@@ -14,18 +14,20 @@ void read_colours(const Section& cdl, std::string_view key, Channel red, Channel
     values[colour_channel(red, k)] = numbers ? (*numbers)[k] : *number;
 }
 
-Keyframe read_keyframe(const Item& item, const KeyframeSpan& span,
-                       const std::vector<Marker>& markers, ShowCamera& camera, Lookup& lookup) {
+Keyframe read_keyframe(const Item& item, const KeyframeSpan& span, const Show& show,
+                       ShowCamera& camera, Lookup& lookup) {
   const Section s(item, {"keyframes"});
   Keyframe keyframe;
   const Item* time = s.require("at_s", " (seconds)");
-  const auto at = time ? read_time(*time, s.range("at_s").at_most(span.latest), markers, span.start)
-                       : std::nullopt;
+  const auto at =
+      time ? read_time(*time, s.range("at_s").at_most(span.latest), show.markers, span.start)
+           : std::nullopt;
   keyframe.at_s = span.start + at.value_or(0);
   using enum Ease;
-  keyframe.ease = s.word("ease", {kSmooth, kLinear, kHold});
+  keyframe.ease = s.word("ease", {kSmooth, kLinear, kHold, kEased, kEasedIn, kEasedOut});
   // A keyframe has numbers alone, since a background cannot turn into another one by degrees.
-  keyframe.values = read_values(s);
+  keyframe.values = read_values(s, show);
+  keyframe.magnitudes = read_magnitudes(s, show);
   if (const Item* own = s.find("camera")) {
     const CameraKeys keys = read_camera(*own, camera, lookup);
     keyframe.attitude = keys.attitude;
@@ -48,10 +50,16 @@ void read_cdl(const Section& grade, ChannelValues& values) {
   values[Channel::kSaturation] = cdl.given("saturation");
 }
 
-ChannelValues read_values(const Section& section, const BackgroundReader& read_background) {
+ChannelValues read_values(const Section& section, const Show& show,
+                          const BackgroundReader& read_background) {
   ChannelValues values;
   values[Channel::kEv] = Section(section.find("exposure"), {"exposure"}).given("ev");
   read_cdl(Section(section.find("grade"), {"grade.cdl"}), values);
+  const Item* disc = section.find("disc");
+  if (disc && !show.disc) disc->fail("needs a disc: give the show one");
+  const Section light(disc, {"disc.light"});
+  values[Channel::kDiscLuminance] = light.given("luminance_cd_m2");
+  values[Channel::kDiscOpacity] = light.given("opacity");
   const Section sky(section.find("sky"), {"sky"});
   const std::string_view background = read_background ? "sky.background" : "sky.gain";
   for (const SkyRegion region : kEverySky) {
@@ -70,14 +78,42 @@ ChannelValues read_values(const Section& section, const BackgroundReader& read_b
   return values;
 }
 
-std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span,
-                                     const std::vector<Marker>& markers, ShowCamera& camera,
-                                     Lookup& lookup) {
+Magnitudes read_magnitudes(const Section& section, const Show& show) {
+  Magnitudes magnitudes(show.bodies.size());
+  const Item* list = section.find("bodies");
+  if (!list) return magnitudes;
+  if (!list->node.IsMap()) {
+    list->fail("must be a map of names, e.g. {beacon: {magnitude: 4}}, got " + kind_of(*list));
+    return magnitudes;
+  }
+  std::map<std::string, std::size_t, std::less<>> known;
+  for (std::size_t k = 0; k < show.bodies.size(); ++k) known[show.bodies[k].name] = k;
+  for (const auto& [name, item] : entries_of(*list)) {
+    const auto found = known.find(name);
+    if (found == known.end()) {
+      std::vector<std::string_view> names;
+      for (const Body& body : show.bodies) names.push_back(body.name);
+      item.fail("is no body of the show" + did_you_mean(name, names));
+      continue;
+    }
+    const Section s(item, {"body.light"});
+    const auto magnitude = s.given("magnitude");
+    if (!magnitude) continue;
+    Body body = show.bodies[found->second];
+    body.magnitude = *magnitude;
+    check_body(body, show.spacetime, *s.find("magnitude"), nullptr);
+    magnitudes[found->second] = *magnitude;
+  }
+  return magnitudes;
+}
+
+std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span, const Show& show,
+                                     ShowCamera& camera, Lookup& lookup) {
   std::vector<Keyframe> keyframes;
   const auto items = read_list(item);
   if (!items) return keyframes;
   for (const Item& entry : *items) {
-    keyframes.push_back(read_keyframe(entry, span, markers, camera, lookup));
+    keyframes.push_back(read_keyframe(entry, span, show, camera, lookup));
     const std::size_t n = keyframes.size();
     // Two keyframes at one time are refused as well, since a curve through both would jump.  A time
     // that is missing has been reported already.
@@ -89,11 +125,11 @@ std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span,
   return keyframes;
 }
 
-std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes, Channel channel,
-                                   double start, double value_there) {
+std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes,
+                                   const NumberOf& number_of, double start, double value_there) {
   Curve curve;
   for (const Keyframe& keyframe : keyframes) {
-    const std::optional<double>& value = keyframe.values[channel];
+    const std::optional<double> value = number_of(keyframe);
     if (!value) continue;
     // Without a key at its start the curve would have the first keyframe's value before it already.
     if (curve.keys.empty() && keyframe.at_s > start) curve.keys.push_back({start, value_there});

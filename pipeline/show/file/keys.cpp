@@ -35,7 +35,7 @@ constexpr std::string_view kRows = R"(
 | `fade_in_s`, `fade_out_s` | at least 0: seconds in which the segment comes out of black, and sinks to it | [0] |
 | `dissolve_s` | at least 0: a cross-dissolve: the segment's first seconds lie over the last ones of the segment before, and both are seen, the one fading into the other. At most as long as either | [0]: a cut |
 | `camera` | keys of `camera` that differ in this segment, or the name of one of the `cameras` | the show's camera |
-| `exposure`, `grade`, `sky` | what differs in this segment: `exposure: {ev}`, `grade: {cdl}`, `sky: {region_I: {background, white_cd_m2, black_cd_m2, gain, stars: {max_magnitude, gain}}, region_III: the same, region_IV: {background, white_cd_m2, black_cd_m2, period_m, gain}}`. A background that a segment names has its own white and black; what else a segment does not name is the show's; its `region_III` does not follow its `region_I` | the show's |
+| `exposure`, `grade`, `sky`, `disc`, `bodies` | what differs in this segment: `exposure: {ev}`, `grade: {cdl}`, `disc: {luminance_cd_m2, opacity}`, `bodies: {NAME: {magnitude}}`, `sky: {region_I: {background, white_cd_m2, black_cd_m2, gain, stars: {max_magnitude, gain}}, region_III: the same, region_IV: {background, white_cd_m2, black_cd_m2, period_m, gain}}`. A background that a segment names has its own white and black; what else a segment does not name is the show's; its `region_III` does not follow its `region_I` | the show's |
 | `keyframes` | what changes during the segment, [below](#keyframes) | |
 | `titles` | texts that are seen in this segment, [below](#titles) | |
 ## trajectory
@@ -122,8 +122,8 @@ constexpr std::string_view kRows = R"(
 ## keyframes
 | `at_s` | at least 0: a [time](#times-and-markers) since the start of the show, or of the segment, or a marker | required |
 | `camera` | its keys as above, without `projection` and `cut`, or the name of one of the `cameras` | |
-| `exposure`, `grade`, `sky` | as in a segment, without backgrounds | |
-| `ease` | `smooth`, `linear` or `hold`: how the values of this keyframe are reached from the keyframe before that gives them; `hold` keeps the old values until this keyframe | [`smooth`] |
+| `exposure`, `grade`, `sky`, `disc`, `bodies` | as in a segment, without backgrounds | |
+| `ease` | `smooth`, `linear`, `hold`, `eased`, `eased_in` or `eased_out`: how the values of this keyframe are reached from the keyframe before that gives them; `hold` keeps the old values until this keyframe; `eased` goes from standing still to standing still, where `smooth` passes keyframes between others without a stop, and `eased_in` and `eased_out` stand still at their beginning and at their end only | [`smooth`] |
 | `name` | a name by which later keyframes look at the same target: `look_at: {keyframe: NAME}` | |
 ## titles
 | `text` | up to 2,000 bytes in any script that the machine has fonts for; several lines in a block after `|` | required |
@@ -182,11 +182,12 @@ constexpr std::string_view kRows = R"(
 | `inclination_deg` | 0 to 180: the angle between its plane and that of the orbits that set out as `heading_deg` says; with more than 90 it turns against them | [10] |
 | `node_deg` | -360 to 360: where its gas rises through the plane of the orbits to their north, as an azimuth from the observer's first place in the sense of the orbits | [90] |
 | `t_max_k` | 1000 to 1e9: the temperature of its hottest ring | [10000] |
-| `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: how bright that ring is to an observer who moves with it | [1e-3, which is pixel value 1 at 0 EV] |
-| `opacity` | 0 to 1: the part of the light from behind it that it takes away; its own light is the same part of what it would be | [1] |
 | `plunging` | `true` or `false`: whether gas falls in from the last stable orbit and shines on its way | [`false`] |
 | `pattern` | `turbulence`, `rings`, `spot` or `none`: or a map with one of these as `type` and the keys below | [`none`] |
 | `slow_light` | `true` or `false`: whether a pattern is seen as it was when the light left it; with `false` all of it is seen at one time | [`true`] |
+## disc.light
+| `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: how bright that ring is to an observer who moves with it | [1e-3, which is pixel value 1 at 0 EV] |
+| `opacity` | 0 to 1: the part of the light from behind it that it takes away; its own light is the same part of what it would be | [1] |
 ## pattern
 | `type` | `turbulence`, `rings`, `spot` or `none`: a pattern with the keys below | required |
 ## turbulence
@@ -211,9 +212,10 @@ constexpr std::string_view kRows = R"(
 | `node_deg` | -360 to 360: azimuth, from the observer's first place, at which it rises to the north of that plane | [0] |
 | `azimuth_deg` | -3600 to 3600: its azimuth from the node where it begins: at the instant that light falling straight in shares with the show's start (its v = 0), or at `begins_m` | [0] |
 | `temperature_k` | 100 to 1e9: colour of its light, a blackbody's | [6000] |
-| `magnitude` | -100 to 100 magnitudes: visual magnitude that it would have at a distance of 100 M, at rest and without the hole | [0] |
 | `absolute_magnitude` | -100 to 100 magnitudes: instead, that at 10 pc, as catalogues have it | |
 | `radius` | above 0, at most 1e6 M: of a glowing sphere. It shares the light of the `magnitude` evenly over its disc. The sphere must stay clear of the horizon on its orbit; if the body falls in, where its fall begins | [a point] |
+## body.light
+| `magnitude` | -100 to 100 magnitudes: visual magnitude that it would have at a distance of 100 M, at rest and without the hole | [0] |
 ## elements
 | `period_years` | above 0, at most 1e9 years: Julian, of the ellipse | required |
 | `eccentricity` | 0 to below 1: of the ellipse | required |

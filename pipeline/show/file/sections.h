@@ -53,6 +53,10 @@ OrbitPlane read_orbit_plane(const Section& s, const Show& to);
 std::optional<Disc> read_disc(const Section& show, const Show& to);
 
 std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& lookup);
+// Reports a body that is so large that it reaches the hole, and one with more light than the
+// renderer's floats hold, at `light` or, if its own size is too large, at `radius`.
+void check_body(const Body& body, const Spacetime& spacetime, const Item& light,
+                const Item* radius);
 
 // A TitleSpan is the part of the show that titles belong to, in show seconds.  Their times count
 // from its beginning, and none lasts beyond its end.
@@ -101,17 +105,23 @@ Camera camera_from(const CameraKeys& keys, const Projection& projection);
 // Reads `cdl: {slope, offset, power, saturation}` of a section `grade` into the CDL's channels.
 void read_cdl(const Section& grade, ChannelValues& values);
 
-// Reads `exposure: {ev}`, `grade: {cdl}` and the numbers of `sky` of a segment or a keyframe.  For a
-// segment, whose skies may have backgrounds, `read_background` is called with the keys of each
-// region.
+// Reads `exposure: {ev}`, `grade: {cdl}` and the numbers of `sky` and `disc` of a segment or a
+// keyframe of `show`.  For a segment, whose skies may have backgrounds, `read_background` is called
+// with the keys of each region.
 using BackgroundReader = std::function<void(SkyRegion region, const Section& keys)>;
-ChannelValues read_values(const Section& section, const BackgroundReader& read_background = {});
+ChannelValues read_values(const Section& section, const Show& show,
+                          const BackgroundReader& read_background = {});
+
+// Magnitudes are those that a segment or a keyframe gives to the bodies of its show, in their order.
+using Magnitudes = std::vector<std::optional<double>>;
+Magnitudes read_magnitudes(const Section& section, const Show& show);
 
 struct Keyframe {
   double at_s = 0;  // show seconds
   Ease ease = Ease::kSmooth;
   std::optional<Attitude> attitude;
   ChannelValues values;
+  Magnitudes magnitudes;
 };
 
 // A KeyframeSpan is the part of the show for which a list of keyframes is given.
@@ -122,15 +132,14 @@ struct KeyframeSpan {
 
 // Reads a list of keyframes, whose times must ascend.  Keyframes that bear a name are entered into
 // `camera`.
-std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span,
-                                     const std::vector<Marker>& markers, ShowCamera& camera,
-                                     Lookup& lookup);
+std::vector<Keyframe> read_keyframes(const Item& item, const KeyframeSpan& span, const Show& show,
+                                     ShowCamera& camera, Lookup& lookup);
 
-// Returns the curve of a channel through the keyframes that give it, or nothing if none does.  The
-// curve begins at `start` with `value_there`, the value without keyframes, unless a keyframe stands
-// there.
-std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes, Channel channel,
-                                   double start, double value_there);
+// Returns the curve through the keyframes that give a number, or nothing if none does.  The curve
+// begins at `start` with `value_there`, the value without keyframes, unless a keyframe stands there.
+using NumberOf = std::function<std::optional<double>(const Keyframe&)>;
+std::optional<Curve> curve_through(const std::vector<Keyframe>& keyframes,
+                                   const NumberOf& number_of, double start, double value_there);
 // Returns the attitudes of the keyframes that give one, which begin in the same way with
 // `attitude_there`.  The list is empty if no keyframe gives one.
 std::vector<AttitudeKey> attitudes_through(const std::vector<Keyframe>& keyframes, double start,

@@ -111,6 +111,9 @@ class TimelineReader {
       values[colour_channel(Channel::kPowerR, k)] = cdl.power[k];
     }
     values[Channel::kSaturation] = cdl.saturation;
+    const Disc disc = show_.disc.value_or(Disc{});
+    values[Channel::kDiscLuminance] = disc.luminance;
+    values[Channel::kDiscOpacity] = disc.opacity;
     for (const SkyRegion region : kEverySky) {
       const RegionSky& sky = show_.sky[region];
       values[gain_channel(region)] = sky.background_gain;
@@ -120,32 +123,41 @@ class TimelineReader {
     return values;
   }
 
-  // Reads camera, exposure, CDL and skies.  Each value is taken from the first of these that gives
+  // Reads camera, exposure, CDL, skies, disc and bodies.  Each value is taken from the first of these that gives
   // it: the segment's keyframes, the segment, the show's keyframes, the show.
   void read_view(const Section& section, double begin, Segment& segment) {
     CameraKeys own;
     if (const Item* camera = section.find("camera")) own = read_camera(*camera, camera_, lookup_);
-    ChannelValues values = read_values(section, [&](SkyRegion region, const Section& keys) {
+    ChannelValues values = read_values(section, show_, [&](SkyRegion region, const Section& keys) {
       read_segment_background(keys, region, lookup_, show_.sky[region],
                               segment.backgrounds[region]);
     });
     lay_over(values, own.values);
+    const Magnitudes magnitudes = read_magnitudes(section, show_);
     std::vector<Keyframe> keyframes;
     if (const Item* list = section.find("keyframes"))
-      keyframes =
-          read_keyframes(*list, {begin, segment.duration_s}, show_.markers, camera_, lookup_);
+      keyframes = read_keyframes(*list, {begin, segment.duration_s}, show_, camera_, lookup_);
 
     segment.camera = camera_from(laid_over(camera_.keys, own), show_.projection);
     const PerChannel<double> of_show = constants(camera_from(camera_.keys, show_.projection)),
                              of_segment = constants(segment.camera);
-    for (const Channel channel : kEveryChannel) {
-      std::optional<Curve>& curve = segment.curves[channel];
+    const auto curve_of = [&](std::optional<double> own_value, const NumberOf& number_of,
+                              double in_show, double in_segment) {
       // A value of the segment's own is a constant curve, which hides the show's keyframes.
-      curve = values[channel] ? Curve{{{begin, *values[channel]}}}
-                              : curve_through(keyframes_, channel, 0, of_show[channel]);
-      const double base = value_at(segment, channel, begin, of_segment[channel]);
-      if (auto through = curve_through(keyframes, channel, begin, base)) curve = through;
-    }
+      const auto curve = own_value ? std::optional(Curve{{{begin, *own_value}}})
+                                   : curve_through(keyframes_, number_of, 0, in_show);
+      const double base = curve ? value_at(*curve, begin) : in_segment;
+      const auto through = curve_through(keyframes, number_of, begin, base);
+      return through ? through : curve;
+    };
+    for (const Channel channel : kEveryChannel)
+      segment.curves[channel] = curve_of(
+          values[channel], [channel](const Keyframe& keyframe) { return keyframe.values[channel]; },
+          of_show[channel], of_segment[channel]);
+    for (std::size_t k = 0; k < show_.bodies.size(); ++k)
+      segment.magnitudes.push_back(curve_of(
+          magnitudes[k], [k](const Keyframe& keyframe) { return keyframe.magnitudes[k]; },
+          show_.bodies[k].magnitude, show_.bodies[k].magnitude));
     // A segment whose camera looks somewhere itself is not turned by the show's keyframes.
     if (!own.attitude)
       segment.attitudes =
@@ -271,8 +283,7 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
   ShowCamera named = camera;
   const Item* keyframe_list = section.find("keyframes");
   std::vector<Keyframe> keyframes;
-  if (keyframe_list)
-    keyframes = read_keyframes(*keyframe_list, {0, kLongest}, show.markers, named, lookup);
+  if (keyframe_list) keyframes = read_keyframes(*keyframe_list, {0, kLongest}, show, named, lookup);
   const std::size_t reported = list->problems->count();
   TimelineReader reader(show, named, keyframes, lookup);
   bool fitted = true;

@@ -121,6 +121,19 @@ TEST(FrameKeys, KnowEachPropertyOfADisc) {
   expect_other_keys(with_disc(), changes);
 }
 
+TEST(FrameKeys, KnowTheLightThatAKeyframeGivesToDiscAndBodies) {
+  Show show = with_disc();
+  show.bodies.resize(2);
+  const FrameState now = frame_state(show, 0);
+  std::set<std::string> keys{FrameKeys(show).scene(now)};
+  FrameState dim = now, thin = now, fainter = now;
+  dim.settings.disc_gain = 0.5;
+  thin.settings.disc_opacity = 0.5;
+  fainter.settings.magnitudes = {0, 1};
+  for (const FrameState& other : {dim, thin, fainter}) keys.insert(FrameKeys(show).scene(other));
+  EXPECT_EQ(keys.size(), 4U);
+}
+
 TEST(FrameKeys, KnowTheLayersOfTheirFiles) {
   Show two = at_ten();
   two.output.layers = {Layer::kSky, Layer::kStars};

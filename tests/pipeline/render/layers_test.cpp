@@ -104,6 +104,43 @@ TEST(Layers, OfADiscHoldItsLightAndWhatItHides) {
   EXPECT_GT(clear, 300);
 }
 
+TEST(Layers, OfADiscThatACompositorDimsMakeThePictureOfADimmerOne) {
+  Show show = rich_show(Domemaster{128});
+  LayeredFloatFrame frame = expect_picture(show);
+  constexpr float kPart = 2.0f / 3;
+  for (float& value : frame.find(Layer::kDisc)->light.pixels) value *= kPart;
+  show.timeline[0].curves[Channel::kDiscLuminance] = Curve{{{0, show.disc->luminance * kPart}}};
+  FloatImage dimmed;
+  Renderer(show, 1).render(frame_state(show, 0), dimmed);
+  double most = 0;
+  for (std::size_t k = 0; k < dimmed.pixels.size(); ++k) {
+    ASSERT_NEAR(composed(frame, k), dimmed.pixels[k], 1e-6 * (dimmed.pixels[k] + 0.1)) << k / 3;
+    most = std::max(most, std::abs(double{dimmed.pixels[k]} - frame.picture.pixels[k]));
+  }
+  EXPECT_GT(most, 0.1);
+}
+
+// What is not there costs nothing, and hides nothing.
+TEST(Layers, OfADiscThatHasFadedAwayAreBlack) {
+  Show show = rich_show(Domemaster{64});
+  show.timeline[0].curves[Channel::kDiscOpacity] = Curve{{{0, 0}}};
+  LayeredFloatFrame frame = expect_picture(show);
+  EXPECT_EQ(sum_of(frame.find(Layer::kDisc)->light.pixels), 0);
+  EXPECT_EQ(sum_of(frame.find(Layer::kDisc)->alpha), 0);
+  EXPECT_FALSE(plan_frame(show, frame_state(show, 0)).disc);
+}
+
+TEST(Layers, OfBodiesHaveTheMagnitudeOfTheInstant) {
+  Show show = rich_show(Domemaster{64});
+  const auto light = [&show] {
+    LayeredFloatFrame frame = expect_picture(show);
+    return sum_of(frame.find(Layer::kBodies)->light.pixels);
+  };
+  const double before = light();
+  show.timeline[0].magnitudes = {Curve{{{0, show.bodies[0].magnitude + 2.5}}}};
+  EXPECT_NEAR(light() / before, 0.1, 1e-3);
+}
+
 TEST(Layers, ThatAreAskedForAloneAreTheSame) {
   const Show show = rich_show(Domemaster{128});
   const FrameState state = frame_state(show, 0);

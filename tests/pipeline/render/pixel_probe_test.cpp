@@ -62,10 +62,12 @@ TEST(PixelProbe, TellsStarsBehindADiscAsFaintAsTheyAre) {
     show.disc->opacity = opacity;
     return show;
   };
-  const Show bare = show_of_opacity(0), veiled = show_of_opacity(0.9), opaque = show_of_opacity(1);
+  // A disc that hides next to nothing still tells where it is.
+  const Show bare = show_of_opacity(1e-9), veiled = show_of_opacity(0.9),
+             opaque = show_of_opacity(1);
   const FrameState state = frame_state(bare, 0);
   const auto find = [&](const Show& show, const StarAtPixel& star) -> std::optional<double> {
-    for (const StarAtPixel& other : PixelProbe(show, state, star.at).stars())
+    for (const StarAtPixel& other : PixelProbe(show, frame_state(show, 0), star.at).stars())
       if (other.ra_deg == star.ra_deg && other.order == star.order) return other.seen_v;
     return std::nullopt;
   };

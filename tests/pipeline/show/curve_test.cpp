@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 #include <vector>
 
 namespace domefall {
@@ -26,12 +27,36 @@ TEST(Curves, HoldAndRunStraightWhereToldTo) {
   EXPECT_EQ(value_at(c, 4), 10);
 }
 
+// The speed of a curve just before or just behind a keyframe.
+double speed(const Curve& c, double t, double step) {
+  return (value_at(c, t + step) - value_at(c, t)) / step;
+}
+
+TEST(Curves, StandStillAtTheEndsThatAreEased) {
+  const auto of = [](Ease ease) { return Curve{{{0, 1}, {2, 5, ease}}}; };
+  const double h = 1e-7, still = 1e-5, fast = 2 * (5 - 1) / 2.0;
+  for (const auto& [ease, first, last] : {std::tuple{Ease::kEased, 0.0, 0.0},
+                                          {Ease::kEasedIn, 0.0, fast},
+                                          {Ease::kEasedOut, fast, 0.0}}) {
+    EXPECT_NEAR(speed(of(ease), 0, h), first, still);
+    EXPECT_NEAR(speed(of(ease), 2 - h, h), last, still);
+    EXPECT_NEAR(value_at(of(ease), 2 - 1e-12), 5, 1e-9);
+  }
+  EXPECT_DOUBLE_EQ(value_at(of(Ease::kEased), 1), 3);
+  // A smooth stretch takes over the speed of an eased one, and does not pass beyond its ends.
+  const Curve joined{{{0, 0}, {1, 1, Ease::kEasedIn}, {3, 9}}};
+  EXPECT_NEAR(speed(joined, 1, h), 2, still);
+  EXPECT_NEAR(speed(joined, 1 - h, h), 2, still);
+}
+
 Curve random_curve(std::mt19937& engine) {
   std::uniform_real_distribution<double> any(-1, 1);
   Curve c;
   double t = any(engine);
   for (int k = 0; k < 6; ++k) {
-    const Ease ease = any(engine) < 0.6 ? Ease::kSmooth : Ease::kLinear;
+    constexpr Ease kKinds[] = {Ease::kSmooth, Ease::kSmooth,  Ease::kLinear,
+                               Ease::kEased,  Ease::kEasedIn, Ease::kEasedOut};
+    const Ease ease = kKinds[engine() % std::size(kKinds)];
     c.keys.push_back({t, any(engine) < -0.5 ? 0.25 : any(engine), ease});
     t += std::exp(2 * any(engine));
   }

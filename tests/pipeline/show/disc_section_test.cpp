@@ -108,7 +108,7 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
       {"disc: {outer: 30}", "3:8: disc.outer is an unknown key; did you mean outer_r?"},
       {"disc: true",
        "3:7: disc must be a map of keys (inner_r, outer_r, inclination_deg, node_deg, t_max_k, "
-       "luminance_cd_m2, opacity, plunging, pattern or slow_light), got 'true'"},
+       "plunging, pattern, slow_light, luminance_cd_m2 or opacity), got 'true'"},
       {"disc: {inner_r: 5}",
        "3:17: disc.inner_r must be at least 6 (units of M), got 5: gas inside the last stable "
        "orbit falls in, with plunging: true"},

@@ -52,6 +52,28 @@ TEST_F(Keyframes, ValuesComeFromTheNearestThatSaysThem) {
   EXPECT_DOUBLE_EQ(ev(9), 7);
 }
 
+TEST_F(Keyframes, DiscsAndBodiesChange) {
+  const Show s = show(
+      "frames_per_second: 1\n"
+      "disc: {luminance_cd_m2: 0.003, opacity: 0.8}\n"
+      "bodies: {near: {r: 8, magnitude: -2}, far: {r: 20, magnitude: 5}}\n"
+      "keyframes: [{at_s: 4, ease: linear, disc: {opacity: 0}, bodies: {far: {magnitude: 9}}}]\n"
+      "timeline:\n"
+      "  - {duration_s: 4, trajectory: {type: static, r: 9}}\n"
+      "  - {duration_s: 2, trajectory: {type: static, r: 9}, disc: {luminance_cd_m2: 0.002, "
+      "opacity: "
+      "1}, bodies: {near: {magnitude: 3}}}\n");
+  const auto at = [&](int frame) { return frame_state(s, frame).settings; };
+  EXPECT_EQ(at(0).disc_gain, 1);
+  EXPECT_DOUBLE_EQ(at(1).disc_opacity, 0.6);
+  EXPECT_DOUBLE_EQ(bodies_at(s, at(1))[1].magnitude, 6);
+  EXPECT_EQ(bodies_at(s, at(1))[0].magnitude, -2);
+  EXPECT_DOUBLE_EQ(at(4).disc_gain, 2.0 / 3);
+  EXPECT_EQ(at(4).disc_opacity, 1);
+  EXPECT_EQ(bodies_at(s, at(4))[0].magnitude, 3);
+  EXPECT_EQ(bodies_at(s, at(4))[1].magnitude, 9);
+}
+
 TEST_F(Keyframes, SkiesAndFieldsOfViewChange) {
   const Show s = show(
       "frames_per_second: 1\nsize: [32, 32]\n"

@@ -28,7 +28,7 @@ TEST_F(ShowErrorsInTimelines, TheListOfSegments) {
        "frame lasts 0.03333333333 s"},
       {"timeline: [{duration_s: 1, orbits: 2, trajectory: {type: circular, r: 9}}]",
        "2:28: timeline[1].orbits is an unknown key; known here: duration_s, trajectory, fade_in_s, "
-       "fade_out_s, dissolve_s, camera, exposure, grade, sky, keyframes or titles"},
+       "fade_out_s, dissolve_s, camera, exposure, grade, sky, disc, bodies, keyframes or titles"},
   });
   expect_complaints({
       {kHole, "1:1: timeline is missing: a list of segments"},
@@ -135,7 +135,8 @@ TEST_F(ShowErrorsInKeyframes, AreToldWithTheirPlace) {
        "3:101: keyframes[2].camera.look_at.keyframe names no keyframe before this one that has a "
        "name and a direction: 'frist'; did you mean first?"},
       {"keyframes: [{at_s: 1, ease: slow, camera: {look_at: Vega}}]",
-       "3:29: keyframes[1].ease must be smooth, linear or hold, got 'slow'"},
+       "3:29: keyframes[1].ease must be smooth, linear, hold, eased, eased_in or eased_out, got "
+       "'slow'"},
       {"keyframes: [{at_s: 1, camera: {fov_deg: 40}}]",
        "3:41: keyframes[1].camera.fov_deg goes with the projections fisheye, stereographic and "
        "rectilinear; a domemaster shows 180 degrees"},
@@ -169,6 +170,18 @@ TEST_F(ShowErrorsInKeyframes, AreToldWithTheirPlace) {
       {"timeline: [{duration_s: 2, trajectory: {type: static, r: 9}, keyframes: [{at_s: 3, "
        "exposure: {ev: 2}}]}]",
        "2:81: timeline[1].keyframes[1].at_s must be at most 2 (seconds), got 3"},
+      {"timeline: [{duration_s: 2, trajectory: {type: static, r: 9}, disc: {opacity: 0}}]",
+       "2:68: timeline[1].disc needs a disc: give the show one"},
+      {"bodies: {beacon: {r: 9}}\ntimeline: [{duration_s: 2, trajectory: {type: static, r: 9}, "
+       "bodies: {becon: {magnitude: 4}}}]",
+       "3:78: timeline[1].bodies.becon is no body of the show; did you mean beacon?"},
+      {"bodies: {beacon: {r: 9}}\ntimeline: [{duration_s: 2, trajectory: {type: static, r: 9}, "
+       "bodies: {beacon: {temperature_k: 4000}}}]",
+       "3:80: timeline[1].bodies.beacon.temperature_k is an unknown key; known here: magnitude"},
+      {"bodies: {beacon: {r: 9}}\nkeyframes: [{at_s: 1, bodies: [4]}]\ntimeline: [{duration_s: 2, "
+       "trajectory: {type: static, r: 9}}]",
+       "3:31: keyframes[1].bodies must be a map of names, e.g. {beacon: {magnitude: 4}}, got a "
+       "list"},
       {"timeline: [{duration_s: 2, trajectory: {type: static, r: 9}, exposure: {ev: 200}}]",
        "2:77: timeline[1].exposure.ev must be at most 30 (stops), got 200"},
   });
