@@ -15,6 +15,7 @@ namespace domefall {
 namespace {
 
 constexpr int kSurveyWidth = 48, kMostCostInstants = 60;
+constexpr std::size_t kFields = 12;  // along each side
 // Three stops are an eighth of the light.
 constexpr double kFadeStops = 3;
 // From this part of white's code value on, the steps that remain to white cannot be seen.
@@ -71,6 +72,14 @@ class LightMeter {
         white += std::max({rgb[0], rgb[1], rgb[2]}) > 1;
       }
     }
+    light.fields.assign(kFields * kFields, 0);
+    for (std::size_t n = 0; n < inside.size() && light.mean > 0; ++n) {
+      const std::size_t width = columns(state.projection), row = inside[n] / width,
+                        column = inside[n] % width;
+      const std::size_t at =
+          row * kFields / rows(state.projection) * kFields + column * kFields / width;
+      light.fields[at] += values[n] / (light.mean * static_cast<double>(inside.size()));
+    }
     // Only the value at this rank is needed, so the values need not be sorted as a whole.
     const auto rank = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 99 / 100);
     std::nth_element(values.begin(), rank, values.end());
@@ -96,6 +105,28 @@ double step(const FrameLight& a, const FrameLight& b) {
   };
   const double most = std::max(bare(a), bare(b));
   return std::min(bare(a), bare(b)) > 0 ? std::abs(bare(a) - bare(b)) / most : 0;
+}
+
+// Returns which part of its light a picture would have to move to become the other.
+double moved(const FrameLight& a, const FrameLight& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.fields.size(); ++k) sum += std::abs(a.fields[k] - b.fields[k]);
+  return sum / 2;
+}
+
+// Adds a warning for each stretch of frames which all go with its first one and that lasts so long.
+template <class Goes>
+void warn_of_stretches(const std::vector<FrameLight>& frames, double seconds, const char* what,
+                       const Goes& goes, std::vector<ShowWarning>& warnings) {
+  for (std::size_t first = 0; first < frames.size();) {
+    std::size_t end = first;
+    while (end < frames.size() && goes(frames[first], frames[end])) ++end;
+    const double last = end > first ? frames[end - 1].time_s - frames[first].time_s : 0;
+    if (last >= seconds)
+      warnings.push_back({frames[first].time_s, frames[first].frame, frames[first].segment,
+                          fmt::format("the picture is {} for {:.3g} s", what, last)});
+    first = std::max(end, first + 1);
+  }
 }
 
 }  // namespace
@@ -139,6 +170,14 @@ std::vector<ShowWarning> light_warnings(const Show& show, Renderer& renderer,
   pairs.resize(std::min(pairs.size(), kMostPairs));
   LightMeter meter(nullptr);
   std::vector<ShowWarning> warnings;
+  const auto is_black = [](const FrameLight&, const FrameLight& light) {
+    return light.percentile99 < kBlackLight && light.fade > 0.5;
+  };
+  const auto is_unchanged = [](const FrameLight& first, const FrameLight& light) {
+    return first.mean > 0 && light.mean > 0 && moved(first, light) < kUnchangedLight;
+  };
+  warn_of_stretches(survey.frames, kLongBlack, "black", is_black, warnings);
+  warn_of_stretches(survey.frames, kLongUnchanged, "nearly the same", is_unchanged, warnings);
   for (auto& [a, b] : pairs) {
     while (b.frame - a.frame > 1 && step(a, b) > kLargestLightStep) {
       const FrameLight middle =

@@ -21,6 +21,8 @@ struct FrameLight {
   // This part of the pixels, 0 to 1, has a channel within 1 % of the grade's white.  Without a
   // grade it is the part of which a channel exceeds 1.
   double white = 0;
+  // These are the parts of all light that the fields of a grid over the picture have.
+  std::vector<double> fields{};
 };
 
 struct LightSurvey {
@@ -39,10 +41,16 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
 // From one frame to the next the mean light may change by this part of itself.
 inline constexpr double kLargestLightStep = 0.2;
 
-// Returns a warning for each place within a segment where the light jumps, as it does where the plane
-// of a disc is crossed.  Exposures and fades do not count.  A jump is sought between those of the
-// survey's frames that differ most, 16 pairs at most, by halves; so a flash between two of equal
-// light is not found.
+// From this time on a picture is black or unchanged for long.  Black is a picture of which 99 % are
+// below this pixel value, and unchanged one of whose light at most this part stands elsewhere.
+inline constexpr double kLongBlack = 2, kLongUnchanged = 20;  // seconds
+inline constexpr double kBlackLight = 0.01, kUnchangedLight = 0.25;
+
+// Returns a warning for each stretch of the survey's frames that is black for long and not in a
+// fade, or unchanged for long; and one for each place within a segment where the light jumps, as it
+// does where the plane of a disc is crossed.  To jumps exposures and fades do not count.  A jump is
+// sought between those of the survey's frames that differ most, 16 pairs at most, by halves; so a
+// flash between two of equal light is not found.
 std::vector<ShowWarning> light_warnings(const Show& show, Renderer& renderer,
                                         const LightSurvey& survey);
 

@@ -9,6 +9,7 @@
 
 #include "pipeline/program/survey/show_survey.h"
 #include "pipeline/show/observer_track.h"
+#include "pipeline/sources/disc/disc_pattern.h"
 
 namespace domefall {
 namespace {
@@ -40,6 +41,7 @@ std::optional<double> relative_speed(const ObserverState& a, const ObserverState
 // A FramePair says what changes from one frame to the next.
 struct FramePair {
   double turn = 0, stops = 0;  // radians of the camera, EV of the exposure
+  double gas = 0;              // radians by which the inner gas of a disc turns
   int segment = -1;            // -1 if a cut lies between them
 };
 
@@ -62,7 +64,7 @@ M33d on_sky(const ObserverState& o) {
 
 // Returns the change between neighbouring frames.  Across a cut nothing is compared, since a cut is
 // meant to jump.
-FramePair compare(const FrameState& a, const FrameState& b) {
+FramePair compare(const Show& show, const FrameState& a, const FrameState& b) {
   if (a.segment != b.segment) return {};
   FramePair pair;
   pair.segment = a.segment;
@@ -72,6 +74,10 @@ FramePair compare(const FrameState& a, const FrameState& b) {
   if (!is_flat(a.observer) && a.observer.tetrad == b.observer.tetrad)
     pair.turn = std::min(
         pair.turn, angle_between(a.observer.tetrad_from_camera, b.observer.tetrad_from_camera));
+  // Rings look the same however they turn.
+  if (show.disc && show.disc->pattern && !std::holds_alternative<RingPattern>(*show.disc->pattern))
+    pair.gas = angular_velocity(std::max(show.disc->inner, kPlungesBelow)) *
+               static_cast<double>(b.observer.null_time - a.observer.null_time);
   return pair;
 }
 
@@ -115,7 +121,7 @@ Pairs compare_frames(const Show& show) {
           const int n = found.frames[k];
           if (!before || before->frame != n - 1) before = frame_state(show, n - 1);
           const FrameState now = frame_state(show, n);
-          found.pairs[k] = compare(*before, now);
+          found.pairs[k] = compare(show, *before, now);
           before = now;
         }
       });
@@ -251,6 +257,15 @@ std::vector<ShowWarning> jump_warnings(const Show& show) {
       show, found, &FramePair::stops, kLargestEvStep * (1 + kRounding),
       [](double stops) {
         return fmt::format("the exposure changes by {:+.3g} stops between frames", stops);
+      },
+      warnings);
+  warn_of_runs(
+      show, found, &FramePair::gas, kFastestGasDeg / kRadianDeg,
+      [](double gas) {
+        return fmt::format(
+            "the disc's inner gas turns by {:.3g} degrees from frame to frame, so that its pattern "
+            "seems to jump or to stand; a slower clock would show how it moves",
+            std::abs(gas) * kRadianDeg);
       },
       warnings);
   warn_of_rates(show, warnings);

@@ -34,6 +34,7 @@ std::vector<SegmentJoint> segment_joints(const Show& show);
 
 // A warning is given for changes that exceed these limits.
 inline constexpr double kFastestTurnDeg = 30;  // degrees of camera turn per second of show
+inline constexpr double kFastestGasDeg = 20;   // degrees of a disc's inner gas between frames
 inline constexpr double kLargestEvStep = 0.5;  // stops between frames
 inline constexpr double kLargestRateStep = 2;  // a factor between clocks, where nothing else jumps
 
@@ -41,6 +42,7 @@ inline constexpr double kLargestRateStep = 2;  // a factor between clocks, where
 // - a camera that turns too fast.  Its turn is taken against the sky and against the hole, and the
 //   smaller of the two counts, since a camera that keeps either in view stands still;
 // - an exposure that jumps from one frame to the next;
+// - a disc whose pattern turns too fast to be followed;
 // - a clock that changes its rate where the motion goes on;
 // - what a keyframe with `ease: hold` changes.
 // In a show of up to 20,000 frames every frame is compared with the one before.  In a longer show

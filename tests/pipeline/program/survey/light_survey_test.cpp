@@ -1,5 +1,6 @@
 #include "pipeline/program/survey/light_survey.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "pipeline/sources/colour/colour_space.h"
@@ -63,7 +64,10 @@ TEST(LightWarnings, FindTheCrossingOfADisc) {
   show.timeline[0].curves[Channel::kEv] = Curve{{{0, -6}, {1, 0}, {8, 0}}};
   show.timeline[0].camera.attitude = LookAtHole{};
   Renderer plain(show, 2);
-  EXPECT_TRUE(light_warnings(show, plain, survey_light(show, plain, nullptr)).empty());
+  // It is dark there.
+  const auto alone = light_warnings(show, plain, survey_light(show, plain, nullptr));
+  ASSERT_EQ(alone.size(), 1U);
+  EXPECT_TRUE(alone[0].text.starts_with("the picture is black for"));
   show.disc = Disc{};
   const auto height = [&](int frame) {
     const M33d& axes = frame_state(show, frame).observer.sky_from_tetrad;
@@ -82,6 +86,32 @@ TEST(LightWarnings, FindTheCrossingOfADisc) {
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].frame, 101);
   EXPECT_NE(warnings[0].text.find("the mean light jumps from"), std::string::npos);
+}
+
+TEST(LightWarnings, FindWhatIsBlackOrTheSameForLong) {
+  Show show = starry(show_of(StaticObserver{12}, Domemaster{128}));
+  show.spacetime = Schwarzschild{1e6};
+  show.timeline[0].duration_s = 40;
+  show.timeline[0].timing.tau_end = 1;
+  show.timeline[0].curves[Channel::kEv] = Curve{{{0, -30}, {6, -30}, {8, 6}, {40, 6}}};
+  Renderer renderer(show, 2, {}, kSurveyDetail);
+  const auto texts = [&] {
+    std::vector<std::string> found;
+    for (const ShowWarning& warning :
+         light_warnings(show, renderer, survey_light(show, renderer, nullptr)))
+      found.push_back(fmt::format("{:.0f}: {}", warning.time_s, warning.text));
+    return found;
+  };
+  const auto found = texts();
+  ASSERT_EQ(found.size(), 2U) << fmt::format("{}", fmt::join(found, "\n"));
+  EXPECT_TRUE(found[0].starts_with("0: the picture is black for"));
+  EXPECT_NE(found[1].find("the picture is nearly the same for"), std::string::npos);
+  // A fade from black is meant, and less than 20 seconds of one picture are no tableau.
+  show.timeline[0].curves[Channel::kEv] = Curve{{{0, 6}}};
+  show.timeline[0].fades.in_s = 10;
+  show.timeline[0].duration_s = 18;
+  const auto none = texts();
+  EXPECT_TRUE(none.empty()) << fmt::format("{}", fmt::join(none, "\n"));
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "pipeline/program/survey/show_survey.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/program/survey/show_jumps.h"
 #include "tests/pipeline/show/show_file.h"
@@ -48,6 +51,25 @@ TEST_F(Surveys, TheProperTimeOfADeepSegmentIsWhatPasses) {
   EXPECT_NEAR(s.segments[0].rate_begin, 1e-7, 1e-13);
   EXPECT_NEAR(s.segments[0].rate_end, 1e-7, 1e-13);
   EXPECT_NEAR(s.segments[0].r_begin, 0.001, 1e-15);
+}
+
+// At 24 frames a second and the last stable orbit, 0.068 radians a M.
+TEST_F(Surveys, APatternThatTurnsTooFastIsWarnedOf) {
+  const auto warned = [this](const char* pattern, double rate) {
+    const Show s = show(fmt::format("  - {{duration_s: 1, trajectory: {{type: static, r: 30, "
+                                    "rate_m_per_s: {}}}}}\n",
+                                    rate),
+                        fmt::format("frames_per_second: 24\ndisc: {{pattern: {}}}\n", pattern));
+    const auto warnings = jump_warnings(s);
+    return !warnings.empty() && warnings[0].text.find("the disc's inner gas turns") == 0;
+  };
+  const double limit =
+      20 * std::numbers::pi / 180 * std::pow(6, 1.5) * 24 * std::sqrt(1 - 2.0 / 30);
+  EXPECT_TRUE(warned("turbulence", 1.01 * limit));
+  EXPECT_FALSE(warned("turbulence", 0.99 * limit));
+  EXPECT_TRUE(warned("spot", 1.01 * limit));
+  EXPECT_FALSE(warned("rings", 2 * limit));
+  EXPECT_FALSE(warned("none", 2 * limit));
 }
 
 TEST_F(Surveys, RegionsAreNamedInTheOrderVisited) {
