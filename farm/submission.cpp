@@ -161,6 +161,7 @@ void add_delivery(FarmPlan& plan, const FarmProducts& products, const Show& show
 void add_products(FarmPlan& plan, const FarmProducts& products, const Show& show,
                   const std::vector<int>& frames) {
   refuse_parts_of_nothing(products);
+  if (products.movie.empty() && products.deliver.empty()) return;
   const Sound sound = show_sound(show, products.audio);
   if (!products.movie.empty()) add_movie_product(plan, products, show, frames, sound);
   if (!products.deliver.empty()) add_delivery(plan, products, show, frames, sound);

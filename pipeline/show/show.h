@@ -279,8 +279,9 @@ struct Show {
   double heading = 0;
   std::vector<Segment> timeline;
   std::vector<Marker> markers;
-  std::vector<Title> titles;          // beside those of segments
-  std::vector<OverlayKind> overlays;  // which no show file asks for
+  std::vector<Title> titles;                 // beside those of segments
+  std::vector<std::filesystem::path> audio;  // files with the sound of the show, or none
+  std::vector<OverlayKind> overlays;         // which no show file asks for
   Fades fades;
   // There is one joint for each segment, found once when a show is read (join_segments in
   // observer_track.h).  A show that is assembled in another way has none, and each of its states

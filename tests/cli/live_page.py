@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import wave
 
 from selenium import webdriver
 from selenium.common.exceptions import WebDriverException
@@ -197,11 +198,30 @@ def drive(page, show):
         return [(at.left + at.right) / 2, (at.top + at.bottom) / 2]; })()''')
     assert any(abs(x - middle[0]) < 4 and abs(y - middle[1]) < 4 for x, y in rings), (rings, middle)
 
+    # The sound goes with the pictures, and can be switched off.
+    with wave.open(str(show.with_name('tone.wav')), 'wb') as tone:
+        tone.setparams((1, 2, 48000, 0, 'NONE', ''))
+        tone.writeframes(b'\0\1' * 96000)
+    assert not page.element('sound').is_displayed()
+    show.write_text(text.replace('timeline:', 'audio: tone.wav\ntimeline:'))
+    page.until('window.domefall.revision == 5 && Math.abs(window.domefall.sound.duration - 2) < 0.1', 'the sound')
+    page.keys(Keys.HOME, ' ')
+    page.until('window.domefall.sound.currentTime > 0.4', 'some sound')
+    assert abs(page.ask('window.domefall.sound.currentTime - window.domefall.play.time')) < 0.5
+    page.keys(' ')
+    page.until('window.domefall.sound.paused', 'silence')
+    page.element('sound').click()
+    page.element('first').click()
+    page.element('play').click()
+    page.until('window.domefall.play.time > 0.2', 'a silent picture')
+    assert page.ask('window.domefall.sound.paused')
+    page.element('play').click()
+
     # What a show says is text, whatever it looks like.
     markup = """</title><img src=x onerror='document.body.id=1'><script>document.body.id=1</script>"""
     show.write_text(text.replace('A short fall', f'"{markup}"').replace(
         'timeline:', f'markers: {{"{markup}": 1}}\ntitles: [{{text: "{markup}", at_s: 1}}]\ntimeline:'))
-    page.until('window.domefall.revision == 5', 'the show that looks like a page')
+    page.until('window.domefall.revision == 6', 'the show that looks like a page')
     assert page.element('title').text == markup, page.element('title').text
     assert page.ask('document.title').startswith(markup)
     show.write_text(text.replace('A short fall', f'[{markup}'))

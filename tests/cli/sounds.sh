@@ -157,7 +157,7 @@ grep -q '"channel": "LFE"' delivered/metadata.json || fail "metadata.json does n
 taken '' mix_*.wav
 [ "$(ffprobe -v error -select_streams a -show_entries stream=channels,channel_layout -of csv=p=0 movie.mov)" = 8,7.1 ] ||
   fail "no 7.1"
-refused '--audio: more than one file is the channel l: mix_L.wav and ./mix_L.wav' mix_L.wav ./mix_L.wav
+refused 'audio: more than one file is the channel l: mix_L.wav and ./mix_L.wav' mix_L.wav ./mix_L.wav
 for k in $(seq 12); do wave "dome_$k.wav" 4800; done
 taken '' dome_*.wav
 [ "$(ffprobe -v error -select_streams a -show_entries stream=channels -of csv=p=0 movie.mov)" = 12 ] || fail "no 12 channels"
@@ -169,6 +169,39 @@ for command in "movie show.yaml --preset dome --out no.mp4" "movie show.yaml --p
   "farm submit show.yaml --engine openjd --movie dome --out no --dry-run"; do
   # shellcheck disable=SC2086 # several words
   exits 2 "$DOMEFALL" $command --audio m12.wav
-  says '^--audio m12.wav: 12 channels, and the sound of the preset (dome|review) has at most 8'
+  says '^m12.wav: 12 channels, and the sound of the preset (dome|review) has at most 8'
   [ "$(cat stdout)$(find . -name 'no' -o -name 'no.mp4')" = '' ] || fail "$command: something was made"
 done
+
+# A show names its sound itself, beside it: movies, deliveries and the preview have it.
+mkdir sung
+cp show.yaml sung/
+cp mix_L.wav mix_r.wav sung/
+sed -i 's/^timeline/audio: [mix_L.wav, mix_r.wav]\ntimeline/' sung/show.yaml
+exits 0 "$DOMEFALL" movie sung/show.yaml --from made --preset master --out sung.mov
+[ "$(ffprobe -v error -select_streams a -show_entries stream=channels -of csv=p=0 sung.mov)" = 2 ] || fail "no stereo"
+exits 0 "$DOMEFALL" deliver sung/show.yaml --from made --out sung/sent
+[ "$(ls sung/sent/audio)" = "$(printf 'mix_L.wav\nmix_r.wav')" ] || fail "delivered: $(ls sung/sent/audio)"
+exits 0 "$DOMEFALL" movie sung/show.yaml --from made --preset master --audio mix_C.wav --out sung.mov
+[ "$(ffprobe -v error -select_streams a -show_entries stream=channels -of csv=p=0 sung.mov)" = 1 ] || fail "another sound"
+exits 2 "$DOMEFALL" movie sung/show.yaml --from made --preset master --out sung/mix_L.wav
+for audio in mix_L.wav '[mix_L.wav, mix_L.wav]' "[$(printf 'dome_%d.wav, ' $(seq 11))dome_12.wav]" m12.wav; do
+  cp dome_*.wav m12.wav sung/
+  sed -i "s/^audio: .*/audio: $audio/" sung/show.yaml
+  : >address
+  "$DOMEFALL" preview sung/show.yaml --no-open >>address 2>said &
+  server=$!
+  until [ "$(wc -l <address)" -ge 2 ]; do kill -0 "$server"; sleep 0.02; done
+  code=$(curl -s -o heard.mp4 -w '%{http_code}' "$(head -n 1 address)sound")
+  if [[ $audio = *L*L* ]]; then
+    [[ $code = 400 && $(cat heard.mp4) = *'more than one file is the channel l'* ]] || fail "$audio: $code $(cat heard.mp4)"
+  else
+    heard=$(ffprobe -v error -show_entries stream=codec_name,channels:format=duration -of csv=p=0 heard.mp4 | tr '\n' ' ')
+    [[ $code = 200 && $heard = 'aac,2 0.1'* ]] || fail "$audio: $code $heard"
+  fi
+  kill "$server"
+  wait "$server" || true
+done
+printf 'audio: none.wav\ntimeline: [{duration_s: 1}]\n' >mute.yaml
+exits 75 "$DOMEFALL" check mute.yaml
+says 'mute.yaml:1:8: audio.*none.wav'

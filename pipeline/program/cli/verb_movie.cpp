@@ -79,6 +79,7 @@ fs::path chosen_out(const MovieOptions& o, const Show& show, const MoviePreset& 
                                  preset.name, extension));
   refuse_overwriting(out, o.show);
   for (const std::string& audio : o.audio) refuse_overwriting(out, audio);
+  for (const fs::path& audio : show.audio) refuse_overwriting(out, audio);
   return out;
 }
 

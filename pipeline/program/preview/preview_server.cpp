@@ -18,6 +18,7 @@
 #include "pipeline/program/preview/page_files.h"
 #include "pipeline/program/preview/screen_view.h"
 #include "pipeline/program/preview/show_facts.h"
+#include "pipeline/theatre/movie/listening.h"
 
 namespace domefall {
 namespace {
@@ -129,7 +130,8 @@ struct PreviewServer::Inside {
               {"Cross-Origin-Resource-Policy", "same-origin"},
               {"Content-Security-Policy",
                "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
-               "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"}},
+               "media-src blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+               "frame-ancestors 'none'"}},
              [this](const HttpRequest& request) { return answer(request); }) {
     add_pages();
     url = fmt::format("http://127.0.0.1:{}/{}/", http.port(), token);
@@ -198,6 +200,9 @@ struct PreviewServer::Inside {
       return HttpAnswer{200, "image/svg+xml", show_page(*show.version().show)};
     };
     pages["picture"] = [this](const HttpRequest& request) { return picture(request); };
+    pages["sound"] = [this](const HttpRequest&) {
+      return HttpAnswer{200, "audio/mp4", sound_for_browser(*show.version().show)};
+    };
     pages["changes"] = [this](const HttpRequest& request) { return changes(request); };
     pages["probe"] = [this](const HttpRequest& request) { return probe(request); };
     pages["camera"] = [this](const HttpRequest& request) { return camera(request); };

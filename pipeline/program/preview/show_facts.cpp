@@ -10,12 +10,14 @@
 #include <numbers>
 #include <set>
 
+#include "pipeline/base/digest.h"
 #include "pipeline/grade/view_transform.h"
 #include "pipeline/program/diagram/page.h"
 #include "pipeline/program/survey/axis_stars.h"
 #include "pipeline/program/survey/light_survey.h"
 #include "pipeline/program/survey/show_jumps.h"
 #include "pipeline/program/survey/show_warnings.h"
+#include "pipeline/render/file_stamp.h"
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/rays/shift_range.h"
 #include "pipeline/show/observer_track.h"
@@ -153,6 +155,19 @@ Json displays_as_json(const Show& show) {
   return displays;
 }
 
+// Returns what tells the page whether it has the sound already, or null where there is none.
+Json sound_stamp(const Show& show) {
+  if (show.audio.empty()) return {};
+  Digest digest;
+  digest.add(frame_count(show)).add(show.frames_per_second);
+  for (const std::filesystem::path& file : show.audio) {
+    const FileStamp stamp(file);
+    digest.add(file.string()).add(fmt::to_string(stamp.number));
+    digest.add(fmt::format("{}.{:09}", stamp.changed_s, stamp.changed_ns));
+  }
+  return digest.hex();
+}
+
 Json overlays_as_json() {
   Json names = Json::array();
   for (const auto& [kind, name] : kOverlays) names.push_back(name);
@@ -239,6 +254,7 @@ std::string show_facts(const LiveShow::Version& version, int threads) {
                {"keyframes", keyframes_of(show)},
                {"markers", markers_of(show)},
                {"titles", titles_of(show)},
+               {"sound", sound_stamp(show)},
                {"displays", displays_as_json(show)},
                {"display", version.display},
                {"view", version.view},

@@ -19,6 +19,7 @@ constexpr std::string_view kRows = R"(
 | `keyframes` | what changes during the show, [below](#keyframes) | |
 | `titles` | texts on the dome, [below](#titles) | |
 | `markers` | names for instants of the show, `{door_opens: 0:34}`, or a file of OpenTimelineIO such as `cut.otio`, [below](#times-and-markers) | |
+| `audio` | its sound: a file, or a list of files with one channel each, as [movies.md](movies.md#sound) says. Movies, deliveries and the preview have it, unless `--audio` names another | none |
 | `fade_in_s`, `fade_out_s` | at least 0: seconds in which the show comes out of black at its start, and sinks to black at its end | [0] |
 | `timeline` | the list of segments, below | required |
 ## black_hole

@@ -44,6 +44,17 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   show.spacetime = read_spacetime(s);
 }
 
+std::vector<std::filesystem::path> read_audio(const Section& section, const Lookup& lookup) {
+  std::vector<std::filesystem::path> files;
+  const Item* given = section.find("audio");
+  if (!given) return files;
+  const auto list = given->node.IsSequence() ? read_list(*given) : std::vector{*given};
+  for (const Item& item : list.value_or(std::vector<Item>{}))
+    if (const auto name = read_text(item))
+      if (const auto file = lookup.file(item, *name)) files.push_back(*file);
+  return files;
+}
+
 void read_sections(const Item& root, Lookup& lookup, Show& show) {
   const Section section(root, {"show"});
   if (!root.node.IsMap()) return;
@@ -54,6 +65,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   // gives.
   show.markers = read_markers(section, lookup);
   show.fades = read_fades(section);
+  show.audio = read_audio(section, lookup);
   read_black_hole(section, lookup, show);
   show.bodies = read_bodies(section, show, lookup);
   const ShowCamera camera = read_show_camera(section, show.bodies, lookup);

@@ -150,11 +150,11 @@ void require_fitting(const MoviePreset& preset, const FrameRate& rate, const Sou
         "numbers, such as 24000/1001, is",
         text_of(rate)));
   if (sound.channels > preset.most_channels)
-    throw InputError(fmt::format(
-        "--audio {}: {} channels, and the sound of the preset {} has at most {}; the presets "
-        "master and hap take up to {}",
-        sound.files.front().file.string(), sound.channels, preset.name, preset.most_channels,
-        kMostSoundChannels));
+    throw InputError(
+        fmt::format("{}: {} channels, and the sound of the preset {} has at most {}; the presets "
+                    "master and hap take up to {}",
+                    sound.files.front().file.string(), sound.channels, preset.name,
+                    preset.most_channels, kMostSoundChannels));
 }
 
 double least_bytes(const MoviePreset& preset, const MovieSize& movie, int frames,
@@ -230,14 +230,13 @@ std::vector<std::string> sound_inputs(const Sound& sound) {
   return options;
 }
 
-std::vector<std::string> sound_options(const Sound& sound, int first, int count,
-                                       const FrameRate& rate) {
-  if (sound.files.empty()) return {"-map", "0:v"};
-  // All are padded with endless silence, joined, and then cut to the length of the frames.
+// All are padded with endless silence, joined, and then cut to the length of the frames.
+std::string sound_filter(const Sound& sound, std::size_t input, int first, int count,
+                         const FrameRate& rate) {
   std::string filter, labels;
   for (std::size_t k = 0; k < sound.files.size(); ++k) {
     // Samples are counted, as read_sound_file() does, whatever times the file gives them.
-    filter += fmt::format("[{}:a:0]asetpts=N/SR/TB,apad[c{}];", k + 1, k);
+    filter += fmt::format("[{}:a:0]asetpts=N/SR/TB,apad[c{}];", input + k, k);
     labels += fmt::format("[c{}]", k);
   }
   const std::size_t files = sound.files.size();
@@ -248,9 +247,15 @@ std::vector<std::string> sound_options(const Sound& sound, int first, int count,
   else
     filter += labels + fmt::format("join=inputs={}:channel_layout={}:map={}", files, sound.layout,
                                    join_map(sound.layout));
-  filter += fmt::format(",atrim=start={:.9f}:end={:.9f},asetpts=PTS-STARTPTS[sound]",
-                        duration_of(first, rate), duration_of(first + count, rate));
-  return {"-filter_complex", filter, "-map", "0:v", "-map", "[sound]"};
+  return filter + fmt::format(",atrim=start={:.9f}:end={:.9f},asetpts=PTS-STARTPTS[sound]",
+                              duration_of(first, rate), duration_of(first + count, rate));
+}
+
+std::vector<std::string> sound_options(const Sound& sound, int first, int count,
+                                       const FrameRate& rate) {
+  if (sound.files.empty()) return {"-map", "0:v"};
+  return {"-filter_complex", sound_filter(sound, 1, first, count, rate), "-map", "0:v", "-map",
+          "[sound]"};
 }
 
 }  // namespace domefall

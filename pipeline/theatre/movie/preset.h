@@ -61,6 +61,11 @@ std::vector<std::string> video_options(const MoviePreset& preset, const MovieSiz
                                        const FrameRate& rate, const ColourTags& tags,
                                        const std::string& subtitles);
 
+// Returns ffmpeg's filter that makes one stream, [sound], of a sound's files, which are its inputs
+// from `input` on.  It has the length of the frames first to first + count - 1 of a show.
+std::string sound_filter(const Sound& sound, std::size_t input, int first, int count,
+                         const FrameRate& rate);
+
 // Returns ffmpeg's options for sound that comes with the frames first to first + count - 1 of a
 // show.  They are those of its inputs, which follow the one of the frames, and those by which they
 // become one stream as long as the frames.

@@ -69,14 +69,14 @@ std::vector<std::pair<int, fs::path>> sorted_by(const std::vector<fs::path>& fil
     sorted.emplace_back(index(file), file);
     if (sorted.back().first == kNone)
       throw InputError(fmt::format(
-          "--audio: of several files each is one channel, and its name ends in {}, or all end in "
+          "audio: of several files each is one channel, and its name ends in {}, or all end in "
           "1, 2, 3 and so on, such as show_LFE.wav; {} does not",
           kChannelNames, file.string()));
   }
   std::ranges::stable_sort(sorted, {}, &std::pair<int, fs::path>::first);
   for (std::size_t k = 1; k < sorted.size(); ++k)
     if (sorted[k].first == sorted[k - 1].first)
-      throw InputError(fmt::format("--audio: more than one file is the channel {}: {} and {}",
+      throw InputError(fmt::format("audio: more than one file is the channel {}: {} and {}",
                                    last_word(sorted[k].second), sorted[k - 1].second.string(),
                                    sorted[k].second.string()));
   return sorted;
@@ -86,9 +86,8 @@ std::vector<fs::path> numbered(const std::vector<fs::path>& files) {
   std::vector<fs::path> in_order;
   for (const auto& [number, file] : sorted_by(files, channel_number)) {
     if (number != static_cast<int>(in_order.size()))
-      throw InputError(
-          fmt::format("--audio: {} files are the channels 1 to {}, and none ends in {}",
-                      files.size(), files.size(), in_order.size() + 1));
+      throw InputError(fmt::format("audio: {} files are the channels 1 to {}, and none ends in {}",
+                                   files.size(), files.size(), in_order.size() + 1));
     in_order.push_back(file);
   }
   return in_order;
@@ -115,7 +114,7 @@ std::vector<fs::path> named(const std::vector<fs::path>& files, std::string& lay
 std::vector<fs::path> in_order(const std::vector<fs::path>& files, std::string& layout) {
   if (files.size() < 2) return files;
   if (files.size() > kMostSoundChannels)
-    throw InputError(fmt::format("--audio: {} files; one for each of {} channels are the most",
+    throw InputError(fmt::format("audio: {} files; one for each of {} channels are the most",
                                  files.size(), kMostSoundChannels));
   return channel_number(files.front()) == kNone ? named(files, layout) : numbered(files);
 }
@@ -192,7 +191,8 @@ std::uint64_t samples_within(const SoundFile& sound, int frames, const FrameRate
 }
 
 Sound show_sound(const Show& show, const std::vector<std::string>& files) {
-  Sound sound = read_sound({files.begin(), files.end()});
+  Sound sound =
+      read_sound(files.empty() ? show.audio : std::vector<fs::path>(files.begin(), files.end()));
   for (const std::string& note :
        check_length(sound, frame_count(show), frame_rate_of(show.frames_per_second)))
     say(note);

@@ -19,7 +19,7 @@ struct Sound {
   std::string layout;
 };
 
-// Reads what --audio names.  Several files are one channel each, at most kMostSoundChannels, all of
+// Reads the files of a sound.  Several files are one channel each, at most kMostSoundChannels, all of
 // one rate and depth.  The name of each ends in its channel, after `_`, `-`, `.` or a blank and in
 // any case: L, R, C, LFE, Lb, Rb, Ls, Rs, Cs, T, or 1, 2, 3 and so on.  Throws InputError for names
 // that are missing, double or unknown.  Also throws as read_sound_file().
@@ -37,7 +37,8 @@ std::vector<std::string> check_length(const Sound& sound, int frames, const Fram
 // Encoders of MP3, AAC and the like put up to some 4000 samples before and behind a sound.
 inline constexpr double kEncoderPadding = 0.1;  // s
 
-// Reads the files of --audio and holds their length against the show.  Says on standard error what
+// Reads the files of --audio or, if there are none, those that the show names, and holds their
+// length against the show.  Says on standard error what
 // of them is left out or silent.  Throws as read_sound() and check_length().
 Sound show_sound(const Show& show, const std::vector<std::string>& files);
 

@@ -6,6 +6,7 @@ import { clock, Instruments, tell, tellNothing } from './instruments.js';
 import { Pictures } from './pictures.js';
 import { degreesPerPixel, fitted, projections } from './projections.js';
 import { Projector } from './projector.js';
+import { Sound } from './sound.js';
 import { steer } from './steering.js';
 import { Timeline } from './timeline.js';
 
@@ -17,11 +18,13 @@ let show = null;
 const view = { az: 0, alt: 45, roll: 0, fov: 100, projection: 'stereographic', own: true };
 const play = { time: 0, on: false, speed: 1, loop: false, last: 0 };
 const tests = window.domefall = { drawn: 0, frame: -1, mistake: null, ready: false, view, play,
-  get fine() { return pictures.settled(); } };
+  get fine() { return pictures.settled(); },
+  get sound() { const { currentTime, duration, paused } = sound.element; return { currentTime, duration, paused }; } };
 
 const projector = new Projector(canvas, () => { pictures.renew(); spheres.renew(); });
 const instruments = new Instruments();
 const controls = new Controls(() => { tellNothing(); redraw(); });
+const sound = new Sound($('sound'));
 const timeline = new Timeline($('timeline'), (seconds) => seek(seconds));
 
 // ---- what is to be seen ----
@@ -111,6 +114,7 @@ function tick(now) {
   if (!play.on) return;
   play.time += (now - play.last) / 1000 * play.speed;
   play.last = now;
+  sound.follow(play);
   const end = (show.frames - 1) / show.frames_per_second;
   if (play.time > end) {
     if (play.loop) play.time = end > 0 ? play.time % end : 0;
@@ -125,6 +129,7 @@ function setPlaying(on) {
   const begins = on && !play.on;
   play.on = on;
   play.last = performance.now();
+  sound.follow(play);
   $('play').textContent = on ? '❚❚' : '▶';
   $('play').setAttribute('aria-label', on ? 'Pause' : 'Play');
   tellNothing();
@@ -276,6 +281,7 @@ async function load() {
   instruments.take(show);
   timeline.take(show);
   controls.take(show);
+  sound.take(show.sound);
   play.time = Math.min(play.time, show.duration_s);
   redraw();
   note(show.revision);
