@@ -81,6 +81,8 @@ std::vector<std::pair<std::string, ExrValue>> attributes_of(const FrameInfo& inf
   }
   if (const auto code = time_code(info)) all.emplace_back("timeCode", *code);
   if (!info.owner.empty()) all.emplace_back(kOwner, info.owner);
+  if (info.world_to_camera) all.emplace_back("worldToCamera", *info.world_to_camera);
+  if (info.world_to_ndc) all.emplace_back("worldToNDC", *info.world_to_ndc);
   return all;
 }
 

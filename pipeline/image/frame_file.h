@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,9 @@ struct FrameInfo {
   std::string projection;
   std::string software;
   std::string owner;  // whose the picture is; empty: nothing is said
+  // These lead from a world to the camera that made the picture and, where straight lines stay
+  // straight, to places in it, both by the rules of the OpenEXR attributes of these names.
+  std::optional<ExrMatrix> world_to_camera{}, world_to_ndc{};
 };
 
 // Sets how many threads share the packing and unpacking of one file.  With 0 (the start) the

@@ -99,6 +99,20 @@ V3d direct_image(const Body& body, const ObserverState& o) {
 
 }  // namespace
 
+// This is the inverse of the rotations of euler_axes().  Z = (cos theta, cos phi sin theta,
+// sin phi sin theta) in (R, Theta, Phi), and X is at the angle psi from what the first two
+// rotations make of Theta.
+EulerAngles euler_angles_of(const M33d& tetrad_from_camera) {
+  const V3d x = column(tetrad_from_camera, 0), z = column(tetrad_from_camera, 2);
+  const double sine = std::hypot(z.y, z.z), theta = std::atan2(sine, z.x),
+               phi = sine > 0 ? std::atan2(z.z, z.y) : 0;
+  const V3d a1(0, std::cos(phi), std::sin(phi)), b1(0, -std::sin(phi), std::cos(phi));
+  const V3d a2 = a1 * std::cos(theta) - V3d(1, 0, 0) * std::sin(theta);
+  return {phi, theta, std::atan2(x.dot(b1), x.dot(a2))};
+}
+
+M33d untilted(const M33d& axes, double tilt) { return tilted(axes, -tilt); }
+
 V3d motion_direction(const ObserverState& o) {
   // d/dt = T + s R in rain and T - s R in the outgoing tetrad.  The boost into the
   // observer's frame ([Riazuelo] eq. Lambda_cov) turns its spatial part k into

@@ -16,6 +16,13 @@ namespace domefall {
 M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer,
                  const Effects& effects = {});
 
+// Returns the angles of a camera that is turned by them, and for a dome that does not lean.
+EulerAngles euler_angles_of(const M33d& tetrad_from_camera);
+
+// Returns the axes of a dome that stands upright where another leans to its front by `tilt`
+// (radians), which a show adds again to the angles of its camera.
+M33d untilted(const M33d& axes, double tilt);
+
 // Returns the direction in which the target is seen, in the same tetrad.  Euler angles have no
 // target, so that nothing is returned for them.
 std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& observer,

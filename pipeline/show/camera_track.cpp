@@ -21,6 +21,9 @@ Camera camera_at(const Segment& s, double t) {
 // before.
 constexpr int kTurnSteps = 64;
 
+// Says whether an attitude stays the same against the tetrad, whatever the observer does.
+bool is_fixed(const AttitudeKey& key) { return std::holds_alternative<EulerAngles>(key.attitude); }
+
 // A Turn is the camera's rotation from one attitude to the next, while the targets of both may
 // move.
 class Turn {
@@ -35,11 +38,16 @@ class Turn {
     const double x = (t - from_.at_s) / (to_.at_s - from_.at_s);
     const int steps = std::clamp(static_cast<int>(std::ceil(x * kTurnSteps)), 1, kTurnSteps);
     // The rotation at the last step before t tells which one to continue.
-    const V3d before =
-        to_.turns.empty() ? followed(steps).back() : to_.turns[static_cast<std::size_t>(steps) - 1];
+    const V3d before = is_constant()       ? V3d(0, 0, 0)
+                       : to_.turns.empty() ? followed(steps).back()
+                                           : to_.turns[static_cast<std::size_t>(steps) - 1];
     const V3d turn = turn_at(t, observer, before);
     return turned_by(axes(from_, t, observer), turn * eased(to_.ease, x));
   }
+
+  // Says whether both attitudes are fixed, so that the shortest way from the one to the other is
+  // the same at all times.
+  bool is_constant() const { return is_fixed(from_) && is_fixed(to_); }
 
   // Returns the rotations at the first `steps` steps of the way.  Each continues the one before it,
   // and the first is the shortest.
@@ -105,9 +113,10 @@ void follow_turns(Show& show) {
     const double begin = times[s], end = begin + show.timeline[s].duration_s;
     for (std::size_t k = 1; k < keys.size(); ++k)
       // A segment has the show's keyframes too, but shows only the turns that overlap it.
-      if (keys[k].ease != Ease::kHold && keys[k].at_s > begin && keys[k - 1].at_s < end)
-        keys[k].turns = Turn(show, static_cast<int>(s), show.projection, keys[k - 1], keys[k])
-                            .followed(kTurnSteps);
+      if (const Turn turn(show, static_cast<int>(s), show.projection, keys[k - 1], keys[k]);
+          keys[k].ease != Ease::kHold && keys[k].at_s > begin && keys[k - 1].at_s < end &&
+          !turn.is_constant())
+        keys[k].turns = turn.followed(kTurnSteps);
   }
 }
 

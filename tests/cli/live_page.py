@@ -155,7 +155,15 @@ def drive(page, show):
     assert 0 <= found['ra_deg'] < 360 and abs(found['dec_deg']) <= 90 and found['redshift'] > 0
     page.keys('c')
     page.until('window.domefall.copied', 'the camera')
+    assert page.ask('window.domefall.copied') == 'camera: {look_at: hole, elevation_deg: 45}'
+    page.ask("window.domefall.copied = ''")
+    ActionChains(page.window).drag_and_drop_by_offset(view, 60, 0).perform()
+    page.keys('c')
+    page.until('window.domefall.copied', 'the camera that was turned')
     assert page.ask('window.domefall.copied').startswith('camera: {euler_deg: [')
+    page.keys('0')
+    page.until('window.domefall.view.own', "the show's camera")
+    page.still()
 
     stars = page.window.find_element(By.CSS_SELECTOR, '#skies input[value=I]')
     page.ask('document.querySelectorAll("details").forEach((part) => { part.open = true; })')

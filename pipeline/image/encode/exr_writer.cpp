@@ -65,6 +65,12 @@ struct AttributeAdder {
     const exr_attr_rational_t value{r.numerator, r.denominator};
     require(exr_attr_set_rational(file, 0, name, &value));
   }
+  void operator()(const ExrMatrix& m) const {
+    exr_attr_m44f_t value;
+    static_assert(sizeof value == sizeof m);
+    std::memcpy(&value, &m, sizeof m);
+    require(exr_attr_set_m44f(file, 0, name, &value));
+  }
   void operator()(const ExrTimeCode& t) const {
     const exr_attr_timecode_t value{t.time_and_flags, 0};
     require(exr_attr_set_timecode(file, 0, name, &value));

@@ -39,8 +39,13 @@ struct ExrTimeCode {
   unsigned time_and_flags;  // as SMPTE ST 12-1 packs them for television of 60 fields
 };
 
+// An ExrMatrix multiplies rows of four numbers from the left, as Imath's matrices do.
+struct ExrMatrix {
+  float rows[16];
+};
+
 using ExrValue =
-    std::variant<std::string, int, double, ExrChromaticities, ExrRational, ExrTimeCode>;
+    std::variant<std::string, int, double, ExrChromaticities, ExrRational, ExrTimeCode, ExrMatrix>;
 
 // A channel has one number for each pixel, row after row from the top.
 struct ExrChannel {

@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "pipeline/image/frame_list.h"
+#include "pipeline/program/cli/camera_formats.h"
 #include "pipeline/program/cli/json_number.h"
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/output_file.h"
 #include "pipeline/program/cli/verbs.h"
 #include "pipeline/program/diagram/page.h"
+#include "pipeline/show/camera_world.h"
 #include "pipeline/show/file/read_show.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/state_columns.h"
@@ -54,6 +56,12 @@ void print_csv(const Show& show, const std::vector<int>& frames) {
   }
 }
 
+nlohmann::ordered_json json_of(const M33d& m) {
+  auto rows = nlohmann::ordered_json::array();
+  for (int k = 0; k < 3; ++k) rows.push_back({m[k][0], m[k][1], m[k][2]});
+  return rows;
+}
+
 // Prints an array with a state in each line.
 void print_states_json(const Show& show, const std::vector<int>& frames) {
   std::string before = "[\n";
@@ -61,6 +69,9 @@ void print_states_json(const Show& show, const std::vector<int>& frames) {
     const auto cells = state_cells(frame_state(show, n));
     nlohmann::ordered_json state;
     for (std::size_t k = 0; k < cells.size(); ++k) state[kStateColumns[k]] = json_of_cell(cells[k]);
+    const FrameState view = dominant_view(frame_state(show, n));
+    state["world_from_camera"] = json_of(world_from_camera(view.observer, view.projection));
+    state["world_from_audience"] = json_of(world_from_audience(view));
     std::fputs((before + state.dump()).c_str(), stdout);
     before = ",\n";
   }
@@ -68,7 +79,7 @@ void print_states_json(const Show& show, const std::vector<int>& frames) {
 }
 
 struct StatesOptions {
-  std::string show, frames, plot;
+  std::string show, frames, plot, format = "csv";
   bool json = false;
 };
 
@@ -76,20 +87,28 @@ void print_states(const StatesOptions& o) {
   const Show show = read_show(o.show);
   const std::vector<int> frames = parse_frames(o.frames, frame_count(show));
   if (!o.plot.empty()) write_output(o.plot, show_page(show));
-  o.json ? print_states_json(show, frames) : print_csv(show, frames);
+  if (o.json || o.format == "json") return print_states_json(show, frames);
+  if (o.format == "csv") return print_csv(show, frames);
+  std::fputs((o.format == "usda" ? camera_usda : camera_chan)(show, frames).c_str(), stdout);
 }
 
 }  // namespace
 
 void add_states(CLI::App& app) {
-  auto* verb = app.add_subcommand("states", "Per-frame observer states as CSV or JSON");
+  auto* verb =
+      app.add_subcommand("states", "Per-frame observer states and cameras for other programs");
   auto o = std::make_shared<StatesOptions>();
   add_show(*verb, o->show)->required();
   verb->add_option("--frames", o->frames, "7, 0-299, 0-599x10; default all")->type_name("FRAMES");
   verb->add_option("--plot", o->plot,
                    "also draw the whole show as one page (SVG): radius, orbit, Penrose diagram")
       ->type_name(kFileType);
-  verb->add_flag("--json", o->json, "an array of objects with all digits instead of CSV");
+  verb->add_option("--format", o->format,
+                   "csv (the default); json, an array of objects with all digits; or the camera "
+                   "alone as a USD stage or for Nuke: usda, chan")
+      ->type_name("csv|json|usda|chan")
+      ->check(CLI::IsMember({"csv", "json", "usda", "chan"}));
+  verb->add_flag("--json", o->json, "as --format json");
   verb->callback([o] { print_states(*o); });
 }
 

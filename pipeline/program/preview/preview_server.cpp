@@ -246,9 +246,9 @@ struct PreviewServer::Inside {
   HttpAnswer camera(const HttpRequest& request) {
     std::string text;
     show.with_pictures([&](LivePictures& pictures) {
-      const FrameState state =
-          pictures.state_for(read_request(parameters_of(request), pictures.show()));
-      const std::string yaml = camera_as_yaml(pictures.show(), state);
+      const PictureRequest wanted = read_request(parameters_of(request), pictures.show());
+      const FrameState state = pictures.state_for(wanted);
+      const std::string yaml = camera_as_yaml(pictures.show(), state, wanted.look.has_value());
       text = request.parameter("key") == "1"
                  ? fmt::format("- {{at_s: {:.6g}, camera: {}}}", state.show_time_s, yaml)
                  : "camera: " + yaml;

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "pipeline/render/reduced_frame.h"
 #include "pipeline/show/assets.h"
+#include "pipeline/show/attitude.h"
 #include "pipeline/show/observer_track.h"
 #include "trajectories/degree.h"
+#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {
@@ -55,12 +58,47 @@ double dome_tilt(const Show& show, const FrameState& state) {
   return value_at(segment, Channel::kDomeTilt, state.show_time_s, segment.camera.dome_tilt);
 }
 
-// Returns the axes of a dome that stands upright where another leans to its front by `tilt`, which
-// a show adds again to the angles of its camera.
-M33d untilted(const M33d& axes, double tilt) {
-  const V3d front = column(axes, 1), zenith = column(axes, 2);
-  const double c = std::cos(tilt), s = std::sin(tilt);
-  return from_columns(column(axes, 0), front * c + zenith * s, zenith * c - front * s);
+// Returns the attitude of a segment's camera, or nothing while it turns from one to another.
+std::optional<Attitude> held_attitude(const Segment& segment, double t) {
+  const auto& keys = segment.attitudes;
+  if (keys.empty()) return segment.camera.attitude;
+  const auto next = std::ranges::upper_bound(keys, t, {}, &AttitudeKey::at_s);
+  if (next == keys.begin()) return keys.front().attitude;
+  const AttitudeKey& last = *(next - 1);
+  if (next == keys.end() || next->ease == Ease::kHold || last.at_s == t) return last.attitude;
+  return std::nullopt;
+}
+
+// Returns what a camera looks at in the words of show files, or nothing for one that is turned by
+// angles.
+std::optional<std::string> words_of(const Attitude& attitude) {
+  if (std::holds_alternative<LookAtHole>(attitude)) return "hole";
+  if (std::holds_alternative<LookOutward>(attitude)) return "outward";
+  if (std::holds_alternative<LookAlongMotion>(attitude)) return "motion";
+  if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
+    const Equatorial at = equatorial(sky->target);
+    return fmt::format("{{ra_deg: {:.7g}, dec_deg: {:.7g}}}", at.ra_deg, at.dec_deg);
+  }
+  if (const auto* body = std::get_if<LookAtBody>(&attitude))
+    return "{body: " + nlohmann::json(body->body->name).dump() + "}";
+  return std::nullopt;
+}
+
+std::optional<std::string> target_as_yaml(const Show& show, const FrameState& state) {
+  const Segment& segment = segment_of(show, state.segment);
+  const double t = state.show_time_s;
+  const auto attitude = held_attitude(segment, t);
+  const auto words = attitude ? words_of(*attitude) : std::nullopt;
+  if (!words) return std::nullopt;
+  std::string keys = "{look_at: " + *words;
+  const auto add = [&](Channel channel, double constant, bool always) {
+    const double degrees = value_at(segment, channel, t, constant) / kDegree;
+    if (always || degrees != 0) keys += fmt::format(", {}: {:.6g}", key_of(channel), degrees);
+  };
+  if (has_zenith(show.projection)) add(Channel::kElevation, segment.camera.elevation, true);
+  add(Channel::kRoll, segment.camera.roll, false);
+  if (has_zenith(show.projection)) add(Channel::kDomeTilt, segment.camera.dome_tilt, false);
+  return keys + "}";
 }
 
 // Sets the camera's axes, and keeps what belongs to the audience where it was.
@@ -104,10 +142,8 @@ void turn_to(const ScreenLook& look, FrameState& state) {
   });
 }
 
-// This is the inverse of [Riazuelo] sec. sec_cam's rotations.  Z = (cos theta, cos phi sin theta,
-// sin phi sin theta) in (R, Theta, Phi), and X is at the angle psi from what the first two
-// rotations make of Theta.
-std::string camera_as_yaml(const Show& show, const FrameState& state) {
+std::string camera_as_yaml(const Show& show, const FrameState& state, bool turned) {
+  if (const auto target = turned ? std::nullopt : target_as_yaml(show, state)) return *target;
   M33d axes = state.observer.tetrad_from_camera;
   double tilt = 0;
   if (has_zenith(show.projection)) {
@@ -117,14 +153,9 @@ std::string camera_as_yaml(const Show& show, const FrameState& state) {
   } else if (has_zenith(state.projection)) {
     axes = from_the_seats(axes);
   }
-  const V3d x = column(axes, 0), z = column(axes, 2);
-  const double sine = std::hypot(z.y, z.z), theta = std::atan2(sine, z.x),
-               phi = sine > 0 ? std::atan2(z.z, z.y) : 0;
-  const V3d a1(0, std::cos(phi), std::sin(phi)), b1(0, -std::sin(phi), std::cos(phi));
-  const V3d a2 = a1 * std::cos(theta) - V3d(1, 0, 0) * std::sin(theta);
-  const double psi = std::atan2(x.dot(b1), x.dot(a2));
-  return fmt::format("{{euler_deg: [{:.6g}, {:.6g}, {:.6g}]{}}}", phi / kDegree, theta / kDegree,
-                     psi / kDegree,
+  const EulerAngles angle = euler_angles_of(axes);
+  return fmt::format("{{euler_deg: [{:.6g}, {:.6g}, {:.6g}]{}}}", angle.phi / kDegree,
+                     angle.vartheta / kDegree, angle.psi / kDegree,
                      tilt != 0 ? fmt::format(", dome_tilt_deg: {:.6g}", tilt / kDegree) : "");
 }
 

@@ -18,10 +18,11 @@ void see_in(const Show& show, const Projection& projection, FrameState& state);
 // for an audience has it 45 degrees above the front.
 void turn_to(const ScreenLook& look, FrameState& state);
 
-// Returns what a camera is said to be in a show's file, so that a frame of the show looks as a
-// picture does.  It is `euler_deg`, as YAML.  A dome gets what is in the middle of a flat picture
-// 45 degrees above its front.
-std::string camera_as_yaml(const Show& show, const FrameState& state);
+// Returns what a camera is said to be in a show's file, as YAML, so that a frame of the show looks
+// as a picture does.  The show's own camera keeps its target, unless it is just turning from one to
+// another.  One that was `turned` in the preview has `euler_deg`, and a dome gets what is in the
+// middle of a flat picture 45 degrees above its front.
+std::string camera_as_yaml(const Show& show, const FrameState& state, bool turned);
 
 // Returns settings for a screen.  The default display is for domes, and a preview is for screens.
 // The displays of a show's own configuration are not known, and stay.

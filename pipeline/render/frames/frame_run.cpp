@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <future>
 #include <optional>
@@ -26,6 +27,7 @@
 #include "pipeline/render/rays/key_rounding.h"
 #include "pipeline/render/rendered_frame.h"
 #include "pipeline/render/thread_limit.h"
+#include "pipeline/show/camera_world.h"
 
 namespace domefall {
 namespace {
@@ -226,10 +228,43 @@ class Run {
   std::vector<int> missing_;  // frames to be graded whose scene-linear files are not good
 };
 
+// Returns a matrix with these columns for the point (x, y, z, 1), which has its components in the
+// world, rounded to what all processors agree on.
+ExrMatrix matrix_of(const V3d& x, const V3d& y, const V3d& z, const V3d& w, float last) {
+  constexpr double kSteps = 1e7;
+  ExrMatrix m{};
+  int column = 0;
+  for (const V3d& v : {x, y, z, w}) {
+    for (int row = 0; row < 3; ++row)
+      m.rows[4 * row + column] = static_cast<float>(std::round(v[row] * kSteps) / kSteps + 0.0);
+    ++column;
+  }
+  m.rows[15] = last;
+  return m;
+}
+
+// The attributes' camera has x to the right, y up and z ahead (ImfStandardAttributes.h).
+ExrMatrix world_to_camera(const M33d& world_from_camera) {
+  return matrix_of(column(world_from_camera, 0), column(world_from_camera, 1),
+                   -column(world_from_camera, 2), {0, 0, 0}, 1);
+}
+
+// A place in the picture is (0, 0) at its upper left corner and (1, 1) at its lower right one.  The
+// last component is the distance ahead.
+std::optional<ExrMatrix> world_to_ndc(const M33d& world_from_camera, const Projection& p) {
+  if (!std::holds_alternative<Rectilinear>(p)) return std::nullopt;
+  const double half_width = std::tan(*field_of_view(p) / 2),
+               half_height = half_width * rows(p) / columns(p);
+  const V3d ahead = -column(world_from_camera, 2);
+  return matrix_of(ahead / 2 + column(world_from_camera, 0) / (2 * half_width),
+                   ahead / 2 - column(world_from_camera, 1) / (2 * half_height), ahead, ahead, 0);
+}
+
 }  // namespace
 
 FrameInfo frame_info(const Show& show, const std::string& digest, const FrameState& state,
                      const ObserverState& observer, const std::string& key) {
+  const M33d camera = world_from_camera(observer, state.projection);
   return {.title = show.title,
           .show = digest,
           .key = key,
@@ -240,7 +275,9 @@ FrameInfo frame_info(const Show& show, const std::string& digest, const FrameSta
           .frames_per_second = show.frames_per_second,
           .projection = std::string(projection_name(state.projection)),
           .software = kSoftware,
-          .owner = show.output.owner};
+          .owner = show.output.owner,
+          .world_to_camera = world_to_camera(camera),
+          .world_to_ndc = world_to_ndc(camera, state.projection)};
 }
 
 GradedInfo graded_info(const Show& show, const Projection& projection, int frame,

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "pipeline/base/errors.h"
+#include "pipeline/show/attitude.h"
+#include "pipeline/show/camera_world.h"
+#include "pipeline/show/file/camera_file.h"
 #include "pipeline/show/file/sections.h"
 
 namespace domefall {
@@ -145,6 +149,25 @@ std::optional<Attitude> read_attitude(const Section& camera, const ShowCamera& s
   return look_at ? read_look_at(*look_at, show, lookup) : std::nullopt;
 }
 
+// Reads the attitudes of a camera that another program has animated, for a dome that leans by
+// `tilt`.
+std::vector<AttitudeKey> read_track(const Item& item, double tilt, const ShowCamera& show,
+                                    const Lookup& lookup) {
+  std::vector<AttitudeKey> track;
+  const auto name = read_text(item);
+  const auto file = name ? lookup.file(item, *name) : std::nullopt;
+  if (!file) return track;
+  try {
+    for (const CameraSample& sample : read_camera_file(*file, show.frames_per_second)) {
+      const M33d axes = tetrad_from_camera(sample.world_from_camera, show.projection);
+      track.push_back({sample.at_s, euler_angles_of(untilted(axes, tilt)), Ease::kLinear});
+    }
+  } catch (const InputError& error) {
+    item.fail(error.what());
+  }
+  return track;
+}
+
 // Reads the keys that every camera may have.  Which of them make sense depends on the projection of
 // the show.
 CameraKeys read_camera_keys(const Section& camera, const ShowCamera& show, Lookup& lookup) {
@@ -161,6 +184,12 @@ CameraKeys read_camera_keys(const Section& camera, const ShowCamera& show, Looku
   keys.values[Channel::kDomeTilt] = angle("dome_tilt_deg", camera.range("dome_tilt_deg"));
   const Projection& projection = show.projection;
   const bool zenith = has_zenith(projection);
+  for (const std::string_view key : {"look_at", "euler_deg", "roll_deg", "elevation_deg"})
+    camera.one_of({"file", key});
+  const double tilt =
+      keys.values[Channel::kDomeTilt].value_or(show.keys.values[Channel::kDomeTilt].value_or(0));
+  if (const Item* file = camera.find("file"))
+    keys.track = read_track(*file, zenith ? tilt : 0, show, lookup);
   // A flat image has its target in the middle, where neither a rim nor a tilt moves it.
   for (const std::string_view key : {"elevation_deg", "dome_tilt_deg"})
     if (const Item* item = camera.find(key); item && !zenith)
@@ -186,11 +215,14 @@ CameraKeys read_further_camera(const Item& item, const ShowCamera& show, Lookup&
     if (const Item* fixed = camera.find(key))
       fixed->fail("holds for the whole show; it belongs in the show's own camera section");
   CameraKeys own = read_camera_keys(camera, show, lookup);
-  // A camera without an attitude of its own has the show's, and Euler angles use neither of these.
-  if (is_euler(show.keys.attitude) && !camera.find("look_at") && !camera.find("euler_deg"))
+  // A camera without an attitude of its own has the show's, and angles use neither of these.
+  const bool by_file = !show.keys.track.empty();
+  if ((is_euler(show.keys.attitude) || by_file) && !camera.find("look_at") &&
+      !camera.find("euler_deg") && !camera.find("file"))
     for (const std::string_view key : {"roll_deg", "elevation_deg"})
       if (const Item* given = camera.find(key))
-        given->fail("goes with look_at only; the show's camera is turned by euler_deg");
+        given->fail(std::string("goes with look_at only; the show's camera is turned by ") +
+                    (by_file ? "a file" : "euler_deg"));
   return own;
 }
 
@@ -205,10 +237,11 @@ void read_named_cameras(const Item& item, ShowCamera& show, Lookup& lookup) {
 
 }  // namespace
 
-ShowCamera read_show_camera(const Section& show, const std::vector<Body>& bodies, Lookup& lookup) {
+ShowCamera read_show_camera(const Section& show, const Show& to, Lookup& lookup) {
   const Section camera(show.find("camera"), {"camera"});
   ShowCamera result;
-  for (const Body& body : bodies)
+  result.frames_per_second = to.frames_per_second;
+  for (const Body& body : to.bodies)
     result.bodies.emplace(body.name, std::make_shared<const Body>(body));
   result.projection = read_projection(show, camera);
   result.keys = read_camera_keys(camera, result, lookup);
@@ -226,9 +259,10 @@ CameraKeys read_camera(const Item& item, const ShowCamera& show, Lookup& lookup)
 }
 
 CameraKeys laid_over(CameraKeys keys, const CameraKeys& own) {
-  if (is_euler(own.attitude))
+  const bool by_file = !own.track.empty();
+  if (is_euler(own.attitude) || by_file)
     keys.values[Channel::kRoll] = keys.values[Channel::kElevation] = std::nullopt;
-  if (own.attitude) keys.attitude = own.attitude;
+  if (own.attitude || by_file) keys.attitude = own.attitude, keys.track = own.track;
   lay_over(keys.values, own.values);
   return keys;
 }

@@ -30,6 +30,8 @@ Keyframe read_keyframe(const Item& item, const KeyframeSpan& span, const Show& s
   keyframe.magnitudes = read_magnitudes(s, show);
   if (const Item* own = s.find("camera")) {
     const CameraKeys keys = read_camera(*own, camera, lookup);
+    if (!keys.track.empty())
+      own->fail("has a file, which is for the camera of a show or a segment");
     keyframe.attitude = keys.attitude;
     lay_over(keyframe.values, keys.values);
   }

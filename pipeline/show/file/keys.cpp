@@ -114,6 +114,7 @@ constexpr std::string_view kRows = R"(
 | `fov_deg` | flat pictures: horizontal angle of view, between 0 and 360, rectilinear ones at most 170; fisheyes: angle across the circle, up to 360 | [90], fisheye [180] |
 | `look_at` | the target: `hole`, `outward` (away from it), `motion`, a place on the sky, or a map of one of the keys below | [`hole`] |
 | `euler_deg` | -3600 to 3600: `[phi, theta, psi]`, instead of `look_at`, `roll_deg` and `elevation_deg` | |
+| `file` | a `.chan` or `.usda` file with a camera that another program has animated, instead of these and `elevation_deg`: [compositing.md](compositing.md#the-camera) says how it is turned; its frame 0 is the show's | |
 | `roll_deg` | -3600 to 3600: turns the scene clockwise about the target | |
 | `elevation_deg` | -90 to 90: on domes, and pictures of the whole sphere, height of the target above the front of the rim, or of the horizon | [45] |
 | `dome_tilt_deg` | -90 to 90: how far such a dome leans to the front; is added to the elevation | [0] |

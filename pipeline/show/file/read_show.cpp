@@ -68,7 +68,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.audio = read_audio(section, lookup);
   read_black_hole(section, lookup, show);
   show.bodies = read_bodies(section, show, lookup);
-  const ShowCamera camera = read_show_camera(section, show.bodies, lookup);
+  const ShowCamera camera = read_show_camera(section, show, lookup);
   show.projection = camera.projection;
   read_stars(section, show);
   read_sky(root, section, lookup, show);

@@ -72,7 +72,8 @@ std::vector<Title> read_titles(const Section& section, const TitleSpan& span, co
 // key.
 struct CameraKeys {
   std::optional<Attitude> attitude;
-  ChannelValues values;  // of kRoll, kElevation, kDomeTilt and kFov
+  std::vector<AttitudeKey> track;  // of `file`, which excludes an attitude; empty without one
+  ChannelValues values;            // of kRoll, kElevation, kDomeTilt and kFov
 };
 
 // A ShowCamera is what the show's own sections say, from which all other cameras start.  Camera
@@ -80,14 +81,16 @@ struct CameraKeys {
 // bodies.
 struct ShowCamera {
   Projection projection;
+  double frames_per_second = 0;
   CameraKeys keys;
   std::map<std::string, CameraKeys, std::less<>> cameras;
   std::map<std::string, Attitude, std::less<>> keyframes;
   std::map<std::string, std::shared_ptr<const Body>, std::less<>> bodies;
 };
 
-// Reads the show's `camera`, its `cameras`, and its `size`, which depends on the projection.
-ShowCamera read_show_camera(const Section& show, const std::vector<Body>& bodies, Lookup& lookup);
+// Reads the camera of `to`, its `cameras`, and its `size`, which depends on the projection.  The
+// rate and the bodies of `to` must have been read.
+ShowCamera read_show_camera(const Section& show, const Show& to, Lookup& lookup);
 
 // Reads the camera of a segment or a keyframe, which is the name of an entry of `cameras` or a map.
 CameraKeys read_camera(const Item& item, const ShowCamera& show, Lookup& lookup);

@@ -159,9 +159,14 @@ class TimelineReader {
           magnitudes[k], [k](const Keyframe& keyframe) { return keyframe.magnitudes[k]; },
           show_.bodies[k].magnitude, show_.bodies[k].magnitude));
     // A segment whose camera looks somewhere itself is not turned by the show's keyframes.
-    if (!own.attitude)
-      segment.attitudes =
-          attitudes_through(keyframes_, 0, camera_.keys.attitude.value_or(LookAtHole{}));
+    const std::vector<AttitudeKey>& track = camera_.keys.track;
+    const Attitude first =
+        track.empty() ? camera_.keys.attitude.value_or(LookAtHole{}) : track.front().attitude;
+    segment.attitudes = own.track;
+    if (!own.attitude && own.track.empty()) {
+      segment.attitudes = attitudes_through(keyframes_, 0, first);
+      if (segment.attitudes.empty()) segment.attitudes = track;
+    }
     if (auto through = attitudes_through(keyframes, begin, attitude_at(segment, begin));
         !through.empty())
       segment.attitudes = std::move(through);

@@ -16,7 +16,7 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"---\ntitle: b", "4:1: a show file holds one YAML document; a second one starts here"},
       {"camera: {<<: {look_at: hole}}",
        "3:10: camera.<< is an unknown key; known here: projection, cut, fov_deg, look_at, "
-       "euler_deg, roll_deg, elevation_deg or dome_tilt_deg"},
+       "euler_deg, file, roll_deg, elevation_deg or dome_tilt_deg"},
       {"title: !!str a", "3:8: title bears the YAML tag 'tag:yaml.org,2002:str'; shows use none"},
       {"[a]: 1", "3:1: ? is no key; keys are plain words"},
   });
@@ -35,11 +35,11 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, camera, "
        "effects, sky, stars, disc, bodies, exposure, grade, dome, output, begins_year, cameras, "
-       "keyframes, titles, markers, fade_in_s, fade_out_s or timeline), got a list"},
+       "keyframes, titles, markers, audio, fade_in_s, fade_out_s or timeline), got a list"},
       {"hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, camera, "
        "effects, sky, stars, disc, bodies, exposure, grade, dome, output, begins_year, cameras, "
-       "keyframes, titles, markers, fade_in_s, fade_out_s or timeline), got 'hello'"},
+       "keyframes, titles, markers, audio, fade_in_s, fade_out_s or timeline), got 'hello'"},
       {"timeline:\n	- {duration_s: 2}\n", "2:1: a tab cannot indent YAML; use spaces"},
       {"timeline: [\n", "1:12: this is not valid YAML: end of sequence flow not found"},
       {"timeline:\n  - duration_s: 1\n   camera: {}\n",
@@ -63,7 +63,7 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
       {"projection: domemaster",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
        "camera, effects, sky, stars, disc, bodies, exposure, grade, dome, output, begins_year, "
-       "cameras, keyframes, titles, markers, fade_in_s, fade_out_s or timeline"},
+       "cameras, keyframes, titles, markers, audio, fade_in_s, fade_out_s or timeline"},
       {"exposre: {ev: 1}", "3:1: exposre is an unknown key; did you mean exposure?"},
       {"camera: {projection: stereographic, fov: 90}",
        "3:37: camera.fov is an unknown key; did you mean fov_deg?"},
@@ -74,7 +74,8 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
        "3:1: size must be 1k, 2k, 4k, 8k or a number of pixels (a domemaster is square), got "
        "nothing"},
       {"camera:",
-       "3:1: camera must be a map of keys (projection, cut, fov_deg, look_at, euler_deg, roll_deg, "
+       "3:1: camera must be a map of keys (projection, cut, fov_deg, look_at, euler_deg, file, "
+       "roll_deg, "
        "elevation_deg or dome_tilt_deg), got nothing"},
       {"title: ~", "3:1: title must be text, got nothing"},
   });
@@ -174,6 +175,7 @@ TEST_F(ShowErrorsInYaml, CharactersThatLookLikeOthersAreNamedWithTheirCode) {
        "duration_s is an unknown key; it begins with a no-break space (U+00A0), not a space; known "
        "here: title, frames_per_second, size, black_hole, camera, effects, sky, stars, disc, "
        "bodies, exposure, grade, dome, output, begins_year, cameras, keyframes, titles, markers, "
+       "audio, "
        "fade_in_s, fade_out_s or timeline"},
       {"timeline:\n  \u2013 duration_s: 1\n",
        "2:3: timeline must be a list of at least one entry, got a map whose key '\u2013 "

@@ -91,7 +91,8 @@ TEST_F(ScreenView, IsWrittenAsACameraThatSeesTheSame) {
       turn_to(look, state);
       see_in(show, Domemaster{100}, in_dome);
       turn_to(look, in_dome);
-      for (std::string line : {camera_as_yaml(show, state), camera_as_yaml(show, in_dome)}) {
+      for (std::string line :
+           {camera_as_yaml(show, state, true), camera_as_yaml(show, in_dome, true)}) {
         if (flat) line.replace(0, 1, "{projection: stereographic, ");
         const Show other = with(line, size);
         FrameState again = frame_state(other, 40);
@@ -101,6 +102,20 @@ TEST_F(ScreenView, IsWrittenAsACameraThatSeesTheSame) {
       }
     }
   }
+}
+
+TEST_F(ScreenView, OfTheShowsOwnCameraIsWrittenWithItsTarget) {
+  for (const char* camera : {"{look_at: hole, elevation_deg: 30}",
+                             "{look_at: {ra_deg: 20, dec_deg: -40}, "
+                             "elevation_deg: 60, roll_deg: 12, dome_tilt_deg: 15}",
+                             "{look_at: motion, elevation_deg: 45}"}) {
+    const Show show = with(camera, "256");
+    FrameState state = frame_state(show, 40);
+    see_in(show, kScreen, state);
+    EXPECT_EQ(camera_as_yaml(show, state, false), camera);
+  }
+  const Show angles = with("{euler_deg: [20, 100, -50]}", "256");
+  EXPECT_EQ(camera_as_yaml(angles, frame_state(angles, 40), false), "{euler_deg: [20, 100, -50]}");
 }
 
 }  // namespace
