@@ -24,6 +24,7 @@ struct ReleaseObject {
 template <class T>
 using GObjectPointer = std::unique_ptr<T, ReleaseObject<T>>;
 
+using AttributesPointer = std::unique_ptr<PangoAttrList, decltype(&pango_attr_list_unref)>;
 using FontPointer = std::unique_ptr<PangoFontDescription, decltype(&pango_font_description_free)>;
 using CairoPointer = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 using PathPointer = std::unique_ptr<cairo_path_t, decltype(&cairo_path_destroy)>;
@@ -130,6 +131,11 @@ class PangoLettering {
       throw TemporaryError(
           "no font was found to write with; install one, such as fonts-dejavu-core");
     const GObjectPointer<PangoLayout> layout = laid_out(text, font.get());
+    if (style.even_digits) {
+      const AttributesPointer attributes(pango_attr_list_new(), pango_attr_list_unref);
+      pango_attr_list_insert(attributes.get(), pango_attr_font_features_new("tnum=1"));
+      pango_layout_set_attributes(layout.get(), attributes.get());
+    }
     constexpr PangoAlignment kAligned[] = {PANGO_ALIGN_LEFT, PANGO_ALIGN_CENTER, PANGO_ALIGN_RIGHT};
     pango_layout_set_alignment(layout.get(), kAligned[static_cast<std::size_t>(style.align)]);
 

@@ -32,6 +32,7 @@ struct LetterStyle {
   // them.
   std::string font = "Sans";
   TextAlign align = TextAlign::kCentre;  // of lines of different lengths
+  bool even_digits = false;              // all as wide, if the font has such ones
 
   bool operator==(const LetterStyle&) const = default;
 };

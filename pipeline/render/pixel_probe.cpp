@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "pipeline/render/disc_scene.h"
-#include "pipeline/render/overlay/bent_text.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/scene/body_sight.h"
 #include "pipeline/render/scene/seen_magnitude.h"
@@ -127,21 +126,13 @@ std::vector<BodyAtPixel> PixelProbe::bodies() const {
 std::vector<std::string> PixelProbe::titles() const {
   std::vector<std::string> found;
   if (!is_in_image(state_.projection, pixel_)) return found;
-  const int column = static_cast<int>(std::lround(pixel_.i)) - 1,
+  const int width = columns(state_.projection),
+            column = static_cast<int>(std::lround(pixel_.i)) - 1,
             row = static_cast<int>(std::lround(pixel_.j)) - 1;
   for (const SeenTitle& seen : seen_titles(show_, state_)) {
-    const Title& title = *seen.title;
-    Coverage coverage(columns(state_.projection), rows(state_.projection));
-    add_text(title_letters(title),
-             {state_.camera_from_audience, title.azimuth, title.elevation, title.height}, {0, 0},
-             state_.projection, coverage);
-    bool covers = false;
-    coverage.for_each_row([&](int y, int first, std::span<const double> parts) {
-      const int k = column - first;
-      covers = covers || (y == row && k >= 0 && k < static_cast<int>(parts.size()) &&
-                          parts[static_cast<std::size_t>(k)] > 0);
-    });
-    if (covers) found.push_back(title.text);
+    const auto pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                       static_cast<std::size_t>(column);
+    if (covered_by(seen, state_)[pixel] > 0) found.push_back(seen.text);
   }
   return found;
 }

@@ -9,7 +9,8 @@
 
 namespace domefall {
 
-// The kinds stand in the order in which they are drawn.
+// The kinds stand in the order in which they are drawn.  The last one draws nothing and leaves out the
+// show's titles.
 enum class OverlayKind {
   kGrid,
   kRim,
@@ -19,9 +20,10 @@ enum class OverlayKind {
   kEinsteinRing,
   kStarNames,
   kBurnIn,
+  kNoTitles,
 };
 
-inline constexpr std::array<std::pair<OverlayKind, std::string_view>, 8> kOverlays{
+inline constexpr std::array<std::pair<OverlayKind, std::string_view>, 9> kOverlays{
     {{OverlayKind::kGrid, "grid"},
      {OverlayKind::kRim, "rim"},
      {OverlayKind::kSafeArea, "safe_area"},
@@ -29,7 +31,8 @@ inline constexpr std::array<std::pair<OverlayKind, std::string_view>, 8> kOverla
      {OverlayKind::kSilhouette, "silhouette"},
      {OverlayKind::kEinsteinRing, "einstein_ring"},
      {OverlayKind::kStarNames, "star_names"},
-     {OverlayKind::kBurnIn, "burn_in"}}};
+     {OverlayKind::kBurnIn, "burn_in"},
+     {OverlayKind::kNoTitles, "no_titles"}}};
 
 // Returns the overlays of a list "rim,grid", each once, in the order of drawing.  Throws InputError
 // for a word that names none of them, with the nearest word that does.

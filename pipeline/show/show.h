@@ -102,7 +102,7 @@ struct AttitudeKey {
 
 // A Title is a text on the dome.
 struct Title {
-  std::string text;  // UTF-8; lines end in '\n'
+  std::string text;  // UTF-8; lines end in '\n'; title_text.h has the meaning of braces
   LetterStyle style;
   double begin_s = 0, end_s = 0;  // show seconds
   Fades fades;
@@ -111,6 +111,8 @@ struct Title {
   double azimuth = 0, elevation = 0;
   double height = 0;          // of a capital H, radians
   WorkingRgb light{1, 1, 1};  // pixel values, which no exposure or fade of the show acts on
+  // These parts of the light are taken away behind the whole text, and close around its letters.
+  double plate = 0, shadow = 0;
 };
 
 struct Segment {
@@ -277,9 +279,11 @@ struct Show {
   // place an orbit.
   SkyDirection hole_at;
   double heading = 0;
+  std::optional<double> begins_year;  // in which the show begins, if it matters
   std::vector<Segment> timeline;
   std::vector<Marker> markers;
-  std::vector<Title> titles;                 // beside those of segments
+  std::vector<Title> titles;  // beside those of segments
+  bool draws_titles = true;
   std::vector<std::filesystem::path> audio;  // files with the sound of the show, or none
   std::vector<OverlayKind> overlays;         // which no show file asks for
   Fades fades;

@@ -13,6 +13,7 @@
 #include "pipeline/show/curve.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/nearest_word.h"
+#include "pipeline/show/title_text.h"
 #include "trajectories/trajectory.h"
 
 namespace domefall {
@@ -50,7 +51,8 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
   // A title that is seen in no frame is judged by the frame nearest to its beginning.
   const int frame = shown_at.value_or(nearest_frame(show, title.begin_s));
   const FrameState state = frame_state(show, frame);
-  const LetteredText& letters = title_letters(title);
+  const auto lettered = title_letters(text_at(show, title, state), title.style);
+  const LetteredText& letters = *lettered;
   const TextSurface surface(state.camera_from_audience, title.azimuth, title.elevation,
                             title.height);
   const auto warn = [&](const std::string& what) {
@@ -131,6 +133,7 @@ std::vector<ShowWarning> NearBodies::warnings() const {
 
 std::vector<ShowWarning> title_warnings(const Show& show) {
   std::vector<ShowWarning> warnings;
+  if (!show.draws_titles) return warnings;
   for (const Title& title : show.titles) add_warnings(show, title, warnings);
   for (const Segment& segment : show.timeline)
     for (const Title& title : segment.titles) add_warnings(show, title, warnings);

@@ -148,6 +148,13 @@ CameraDirection TextSurface::direction(const TextPoint& p) const {
           pole_ * std::tanh(ordinate)};
 }
 
+TextPoint TextSurface::point(const CameraDirection& n) const {
+  // Beyond 1, by rounding, there is no ordinate.
+  const double sine = std::clamp(n.v.dot(pole_), -1.0, 1.0);
+  return {std::atan2(n.v.dot(right_), n.v.dot(front_)) / scale_,
+          (std::atanh(sine) - start_) / scale_};
+}
+
 void add_outlines(Digest& digest, const LetteredText& text) {
   constexpr double kSteps = 1e5;
   // Adding 0 turns -0 into 0, so that both count as one number.

@@ -26,6 +26,9 @@ class TextSurface {
   TextSurface(const M33d& camera_from_audience, double azimuth, double elevation, double height);
 
   CameraDirection direction(const TextPoint& p) const;
+  // Returns the point of the text that lies in a direction, which is infinitely high or low at the
+  // pole and its opposite.
+  TextPoint point(const CameraDirection& n) const;
 
   // Returns the angle about the pole, in radians, over which a text of this half width reaches to
   // either side.  With more than pi the text would run into itself.

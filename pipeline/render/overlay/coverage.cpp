@@ -81,19 +81,15 @@ void draw_row(const InkedRow& inked, const WorkingRgb& ink, const OverlaidImages
   inked.each([&](int x, float part) { alpha[x] = alpha[x] * (1 - part) + part; });
 }
 
-// Draws over those columns of each row that inside(row) returns.
-template <class Inside>
-void draw_within(const Coverage& coverage, const Ink& ink, const Inside& inside,
-                 const FrameRef& frame) {
-  coverage.for_each_row([&](int row, int first, std::span<const double> parts) {
-    const ColumnRange range = inside(row);
-    const int begin = std::max(first, range.first),
-              end = std::min(first + static_cast<int>(parts.size()), range.last + 1);
-    if (begin >= end) return;
-    const InkedRow inked{row, begin, end, parts.subspan(static_cast<std::size_t>(begin - first)),
-                         ink.opacity};
-    std::visit([&](const auto& images) { draw_row(inked, ink.light, images); }, frame.images);
-  });
+// Draws over those columns of a row that are in `range`.
+void draw_within(const ColumnRange& range, int row, int first, std::span<const double> parts,
+                 const Ink& ink, const FrameRef& frame) {
+  const int begin = std::max(first, range.first),
+            end = std::min(first + static_cast<int>(parts.size()), range.last + 1);
+  if (begin >= end) return;
+  const InkedRow inked{row, begin, end, parts.subspan(static_cast<std::size_t>(begin - first)),
+                       ink.opacity};
+  std::visit([&](const auto& images) { draw_row(inked, ink.light, images); }, frame.images);
 }
 
 }  // namespace
@@ -171,17 +167,21 @@ Coverage::Span Coverage::accumulate(int top, std::vector<double>& band) const {
 
 void draw_over(const Coverage& coverage, const Ink& ink, const Projection& projection,
                const FrameRef& frame) {
-  draw_within(
-      coverage, ink, [&](int row) { return inside_columns(projection, row); }, frame);
+  coverage.for_each_row([&](int row, int first, std::span<const double> parts) {
+    draw_within(inside_columns(projection, row), row, first, parts, ink, frame);
+  });
+}
+
+void draw_over(const std::vector<CoveredRow>& covered, const Ink& ink, const Projection& projection,
+               const FrameRef& frame) {
+  for (const auto& [row, first, parts] : covered)
+    draw_within(inside_columns(projection, row), row, first, parts, ink, frame);
 }
 
 void draw_anywhere(const Coverage& coverage, const Ink& ink, const FrameRef& frame) {
-  draw_within(
-      coverage, ink,
-      [&](int) {
-        return ColumnRange{0, frame.width - 1};
-      },
-      frame);
+  coverage.for_each_row([&](int row, int first, std::span<const double> parts) {
+    draw_within({0, frame.width - 1}, row, first, parts, ink, frame);
+  });
 }
 
 }  // namespace domefall

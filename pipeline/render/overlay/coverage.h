@@ -29,6 +29,12 @@ inline bool is_in_image(const Projection& p, const PixelPosition& pixel) {
 // The last corner of a polygon is joined to the first.
 using ImagePolygon = std::vector<ImagePoint>;
 
+// A CoveredRow says how much of the pixels of a row is covered, from the column `first` on.
+struct CoveredRow {
+  int row, first;
+  std::vector<double> parts;  // 0 to 1
+};
+
 class Coverage {
  public:
   // The size is that of the image, in pixels.
@@ -105,6 +111,8 @@ struct Ink {
 
 // Draws over a frame of the projection's size wherever the coverage says, but only where the projection shows anything.
 void draw_over(const Coverage& coverage, const Ink& ink, const Projection& projection,
+               const FrameRef& frame);
+void draw_over(const std::vector<CoveredRow>& covered, const Ink& ink, const Projection& projection,
                const FrameRef& frame);
 
 // Draws over a frame everywhere, even outside a dome's circle.

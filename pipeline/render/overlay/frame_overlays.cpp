@@ -76,7 +76,7 @@ void draw_overlays(const Show& show, const FrameState& state, StarLabels& labels
       draw_burn_in(show, state, frame);
     else if (overlay == OverlayKind::kStarNames)
       labels.draw(dominant_view(state), frame);
-    else
+    else if (overlay != OverlayKind::kNoTitles)
       draw_marks(overlay, show, state, frame);
   }
 }

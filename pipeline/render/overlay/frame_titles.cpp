@@ -1,5 +1,6 @@
 #include "pipeline/render/overlay/frame_titles.h"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -7,18 +8,23 @@
 #include "pipeline/base/digest.h"
 #include "pipeline/render/overlay/bent_text.h"
 #include "pipeline/render/overlay/coverage.h"
+#include "pipeline/render/overlay/title_ground.h"
 #include "pipeline/render/rays/key_rounding.h"
+#include "pipeline/show/title_text.h"
 
 namespace domefall {
 
 std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state) {
   std::vector<SeenTitle> seen;
+  if (!show.draws_titles ||
+      std::ranges::find(show.overlays, OverlayKind::kNoTitles) != show.overlays.end())
+    return seen;
   const auto add_seen = [&](const std::vector<Title>& titles) {
     for (const Title& title : titles) {
       const double t = state.show_time_s;
       if (!(t >= title.begin_s && t < title.end_s)) continue;
       const double opacity = light_left(title.fades, title.begin_s, title.end_s, t);
-      if (opacity > 0) seen.push_back({&title, opacity});
+      if (opacity > 0) seen.push_back({&title, text_at(show, title, state), opacity});
     }
   };
   add_seen(show.titles);
@@ -26,63 +32,96 @@ std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state) {
   return seen;
 }
 
-const LetteredText& title_letters(const Title& title) {
-  // The references that are returned stay valid, because a map moves none of its elements.
+std::shared_ptr<const LetteredText> title_letters(const std::string& text,
+                                                  const LetterStyle& style) {
+  // A counter has another text in each frame, so not all are kept.
+  constexpr std::size_t kMostKept = 100;
   static std::mutex mutex;
-  static std::map<std::tuple<std::string, std::string, TextAlign>, LetteredText> known;
+  static std::map<std::tuple<std::string, std::string, TextAlign, bool>,
+                  std::shared_ptr<const LetteredText>>
+      known;
   const std::lock_guard lock(mutex);
-  const auto key = std::tuple(title.text, title.style.font, title.style.align);
+  const auto key = std::tuple(text, style.font, style.align, style.even_digits);
   const auto found = known.find(key);
   if (found != known.end()) return found->second;
-  return known.emplace(key, lettered(title.text, title.style)).first->second;
+  if (known.size() >= kMostKept) known.clear();
+  return known.emplace(key, std::make_shared<LetteredText>(lettered(text, style))).first->second;
 }
+
+namespace {
+
+// A TitleOnDome is what a title draws in one frame, and where.
+class TitleOnDome {
+ public:
+  TitleOnDome(const SeenTitle& seen, const FrameState& state)
+      : projection_(state.projection),
+        letters_(title_letters(seen.text, seen.title->style)),
+        surface_(state.camera_from_audience, seen.title->azimuth, seen.title->elevation,
+                 seen.title->height),
+        ground_(*letters_, seen.title->plate, seen.title->shadow) {}
+
+  Coverage letters() const {
+    Coverage coverage(columns(projection_), rows(projection_));
+    add_text(*letters_, surface_, {0, 0}, projection_, coverage);
+    return coverage;
+  }
+  std::vector<CoveredRow> ground() const { return ground_.covered(surface_, projection_); }
+
+ private:
+  const Projection& projection_;
+  std::shared_ptr<const LetteredText> letters_;
+  TextSurface surface_;
+  TitleGround ground_;
+};
+
+}  // namespace
 
 std::string titles_key(const Show& show, const FrameState& state) {
   const std::vector<SeenTitle> seen = seen_titles(show, state);
   if (seen.empty()) return {};
   Digest digest;
   add_rotation(digest, state.camera_from_audience);
-  for (const auto& [title, opacity] : seen) {
-    add_outlines(digest, title_letters(*title));
+  for (const SeenTitle& one : seen) {
+    const Title& title = *one.title;
+    add_outlines(digest, *title_letters(one.text, title.style));
     // The last bits of angles differ between processors, and rounded_for_key() rounds them off.
-    for (const double v : {title->azimuth, title->elevation, title->height, opacity})
+    for (const double v : {title.azimuth, title.elevation, title.height, one.opacity})
       digest.add(rounded_for_key(v));
-    for (const float v : {title->light.r, title->light.g, title->light.b})
+    for (const float v : {title.light.r, title.light.g, title.light.b})
       digest.add(static_cast<double>(v));
+    // Titles without a ground keep the keys that they had before there was one.
+    if (title.plate > 0) digest.add("plate").add(title.plate);
+    if (title.shadow > 0) digest.add("shadow").add(title.shadow);
   }
   return digest.hex();
 }
 
-namespace {
-
-Coverage coverage_of(const Title& title, const FrameState& state) {
-  Coverage coverage(columns(state.projection), rows(state.projection));
-  const TextSurface surface(state.camera_from_audience, title.azimuth, title.elevation,
-                            title.height);
-  add_text(title_letters(title), surface, {0, 0}, state.projection, coverage);
-  return coverage;
-}
-
-}  // namespace
-
 std::vector<float> covered_by(const SeenTitle& seen, const FrameState& state) {
   const auto width = static_cast<std::size_t>(columns(state.projection));
   std::vector<float> covered(width * static_cast<std::size_t>(rows(state.projection)));
-  coverage_of(*seen.title, state)
-      .for_each_row([&](int row, int first, std::span<const double> parts) {
-        const ColumnRange inside = inside_columns(state.projection, row);
-        for (int column = std::max(first, inside.first);
-             column < first + static_cast<int>(parts.size()) && column <= inside.last; ++column)
-          covered[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)] =
-              static_cast<float>(seen.opacity * parts[static_cast<std::size_t>(column - first)]);
-      });
+  const auto cover = [&](int row, int first, std::span<const double> parts) {
+    const ColumnRange inside = inside_columns(state.projection, row);
+    float* const pixels = covered.data() + static_cast<std::size_t>(row) * width;
+    for (int column = std::max(first, inside.first);
+         column < first + static_cast<int>(parts.size()) && column <= inside.last; ++column) {
+      const auto part =
+          static_cast<float>(seen.opacity * parts[static_cast<std::size_t>(column - first)]);
+      pixels[column] = pixels[column] * (1 - part) + part;
+    }
+  };
+  const TitleOnDome drawn(seen, state);
+  for (const CoveredRow& row : drawn.ground()) cover(row.row, row.first, row.parts);
+  drawn.letters().for_each_row(cover);
   return covered;
 }
 
 void draw_titles(const Show& show, const FrameState& state, const FrameRef& frame) {
   // Each title has its own light and opacity, and so its own coverage.
-  for (const auto& [title, opacity] : seen_titles(show, state))
-    draw_over(coverage_of(*title, state), {title->light, opacity}, state.projection, frame);
+  for (const SeenTitle& seen : seen_titles(show, state)) {
+    const TitleOnDome drawn(seen, state);
+    draw_over(drawn.ground(), {{0, 0, 0}, seen.opacity}, state.projection, frame);
+    draw_over(drawn.letters(), {seen.title->light, seen.opacity}, state.projection, frame);
+  }
 }
 
 }  // namespace domefall

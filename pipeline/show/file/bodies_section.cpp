@@ -213,7 +213,6 @@ Body read_body(const std::string& name, const Item& item, const Show& to,
 
 std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& lookup) {
   std::vector<Body> bodies;
-  const auto year = show.given("begins_year");
   const Item* list = show.find("bodies");
   if (list == nullptr) return bodies;
   if (to.spacetime.is_flat()) list->fail("need a black hole: give the show black_hole.mass_solar");
@@ -222,7 +221,7 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
     return bodies;
   }
   for (const auto& [name, item] : entries_of(*list))
-    bodies.push_back(read_body(name, item, to, year, lookup));
+    bodies.push_back(read_body(name, item, to, to.begins_year, lookup));
   return bodies;
 }
 

@@ -14,10 +14,11 @@ constexpr std::string_view kRows = R"(
 | `frames_per_second` | 1 to 240 frames per second: also as a fraction such as 24000/1001; 23.98, 29.97 and the like stand for n 1000/1001 | [30] |
 | `size` | for a dome `1k`, `2k`, `4k`, `8k` or 16 to 16384 pixels; for a flat picture `[width, height]`, each 16 to 16384; for others see [projections](#projections) | [`4k`], flat [`[1920, 1080]`] |
 | `black_hole`, `camera`, `effects`, `sky`, `stars`, `disc`, `bodies`, `exposure`, `grade`, `dome`, `output` | sections, below | |
-| `begins_year` | -1e6 to 1e6 years: the year in which the show begins, for bodies given by their [elements](#orbits-by-elements) | |
+| `begins_year` | -1e6 to 1e6 years: the year in which the show begins, for bodies given by their [elements](#orbits-by-elements) and for the [counter](#counters) `{year}` | |
 | `cameras` | further cameras by name, [below](#cameras) | |
 | `keyframes` | what changes during the show, [below](#keyframes) | |
 | `titles` | texts on the dome, [below](#titles) | |
+| `draw_titles` | `true` or `false`: whether the titles of the show and of its segments are drawn, [below](#a-show-without-its-titles) | [`true`] |
 | `markers` | names for instants of the show, `{door_opens: 0:34}`, or a file of OpenTimelineIO such as `cut.otio`, [below](#times-and-markers) | |
 | `audio` | its sound: a file, or a list of files with one channel each, as [movies.md](movies.md#sound) says. Movies, deliveries and the preview have it, unless `--audio` names another | none |
 | `fade_in_s`, `fade_out_s` | at least 0: seconds in which the show comes out of black at its start, and sinks to black at its end | [0] |
@@ -128,7 +129,7 @@ constexpr std::string_view kRows = R"(
 | `ease` | `smooth`, `linear`, `hold`, `eased`, `eased_in` or `eased_out`: how the values of this keyframe are reached from the keyframe before that gives them; `hold` keeps the old values until this keyframe; `eased` goes from standing still to standing still, where `smooth` passes keyframes between others without a stop, and `eased_in` and `eased_out` stand still at their beginning and at their end only | [`smooth`] |
 | `name` | a name by which later keyframes look at the same target: `look_at: {keyframe: NAME}` | |
 ## titles
-| `text` | up to 2,000 bytes in any script that the machine has fonts for; several lines in a block after `|` | required |
+| `text` | up to 2,000 bytes in any script that the machine has fonts for; several lines in a block after `|`; [counters](#counters) in braces | required |
 | `at_s` | at least 0: a [time](#times-and-markers) since the start of the show, or of the segment, or a marker | [0] |
 | `duration_s` | above 0: seconds, or the marker at which the title goes | [to the end of the show, or of the segment] |
 | `fade_in_s`, `fade_out_s` | at least 0: seconds, of the duration, in which it comes and goes | [0] |
@@ -139,6 +140,8 @@ constexpr std::string_view kRows = R"(
 | `align` | `left`, `centre` or `right`: of lines of different lengths | [`centre`] |
 | `colour` | 0 to 1: `[red, green, blue]`, linear light with the primaries of Rec.709 | [[1, 1, 1]] |
 | `brightness` | 0 to 10000 pixel values: of its white | [1] |
+| `shadow` | 0 to 1: the part of the light that is taken away behind the letters and, softly, close around them | [0] |
+| `plate` | 0 to 1: the part of the light that is taken away behind the whole text, with soft edges | [0] |
 ## sky
 | `region_I` | the sky outside, with the keys below | |
 | `region_III` | the other sky, with the same keys | like `region_I` |

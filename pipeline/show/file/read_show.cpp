@@ -67,6 +67,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.fades = read_fades(section);
   show.audio = read_audio(section, lookup);
   read_black_hole(section, lookup, show);
+  show.begins_year = section.given("begins_year");
   show.bodies = read_bodies(section, show, lookup);
   const ShowCamera camera = read_show_camera(section, show, lookup);
   show.projection = camera.projection;
@@ -76,6 +77,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.exposure = read_exposure(section);
   show.effects = read_effects(section);
   show.grade = read_grade(section, lookup);
+  show.draws_titles = section.flag("draw_titles");
   show.timeline = read_timeline(section, show, camera, lookup);
   if (!show.timeline.empty()) show.titles = read_titles(section, {0, end_of(show)}, show);
   show.grade.dome = read_dome(section, show.projection);
@@ -91,7 +93,7 @@ void overlay(Show& show, const std::string& names) {
     throw InputError("--overlay " + names + ": " + error.what());
   }
   const bool flat = std::ranges::all_of(
-      show.overlays, [](OverlayKind kind) { return kind == OverlayKind::kBurnIn; });
+      show.overlays, [](OverlayKind kind) { return kind >= OverlayKind::kBurnIn; });
   if (traits_of(show.projection).has_faces && !flat)
     throw InputError("--overlay " + names +
                      ": only burn-in can be drawn on a cubemap, whose faces would cut the others; "

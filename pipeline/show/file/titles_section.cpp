@@ -2,18 +2,22 @@
 
 #include "pipeline/show/file/sections.h"
 #include "pipeline/show/file/show_time.h"
+#include "pipeline/show/title_text.h"
 
 namespace domefall {
 namespace {
 
 constexpr std::size_t kLongestText = 2000;  // bytes
 
-void read_words(const Section& s, Title& title) {
+void read_words(const Section& s, const Show& show, Title& title) {
   const Item* item = s.require("text", ", e.g. text: Sagittarius A*");
   const auto text = item ? read_lines(*item) : std::nullopt;
   if (text && text->size() > kLongestText)
     item->fail(fmt::format("may have {} bytes, got {}", kLongestText, text->size()));
   title.text = text.value_or("");
+  if (const std::string mistake = counter_mistake(title.text, show); !mistake.empty())
+    item->fail(mistake);
+  title.style.even_digits = has_counters(title.text);
   title.style.font = s.text("font");
   using enum TextAlign;
   title.style.align = s.word("align", {kLeft, kCentre, kRight});
@@ -52,7 +56,7 @@ void read_title_times(const Section& s, const TitleSpan& span, const Show& show,
 Title read_title(const Item& item, const TitleSpan& span, const Show& show) {
   const Section s(item, {"titles"});
   Title title;
-  read_words(s, title);
+  read_words(s, show, title);
   read_title_times(s, span, show, title);
   title.azimuth = s.angle("azimuth_deg");
   // The audience of a dome looks there without leaning back.
@@ -60,6 +64,8 @@ Title read_title(const Item& item, const TitleSpan& span, const Show& show) {
   title.elevation = lies ? s.angle("elevation_deg") : 0;
   title.height = s.angle("height_deg");
   read_title_light(s, title);
+  title.plate = s.number("plate");
+  title.shadow = s.number("shadow");
   return title;
 }
 
@@ -70,10 +76,10 @@ std::vector<Title> read_titles(const Section& section, const TitleSpan& span, co
   const Item* list = section.find("titles");
   const auto items = list ? read_list(*list) : std::nullopt;
   if (!items) return titles;
-  if (traits_of(show.projection).has_faces) {
+  if (traits_of(show.projection).has_faces && show.draws_titles) {
     list->fail(
         "cannot be drawn on a cubemap, whose faces would cut them; an equirectangular picture "
-        "shows them");
+        "shows them, and draw_titles: false leaves them out");
     return titles;
   }
   titles.reserve(items->size());

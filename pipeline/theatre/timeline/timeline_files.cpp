@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/base/frame_rate.h"
+#include "pipeline/show/title_text.h"
 
 namespace domefall {
 namespace {
@@ -228,8 +229,11 @@ std::string subtitles(const Show& show, SubtitleKind kind) {
   int number = 0;
   for (const Title* title : titles) {
     const char point = vtt ? '.' : ',';
-    file += fmt::format("{}\n{} --> {}\n{}\n\n", ++number, cue_time(title->begin_s, point),
-                        cue_time(title->end_s, point), cue_text(title->text, kind));
+    const FrameState first =
+        frame_state(show, std::min(first_frame_of(show, *title), frame_count(show) - 1));
+    file +=
+        fmt::format("{}\n{} --> {}\n{}\n\n", ++number, cue_time(title->begin_s, point),
+                    cue_time(title->end_s, point), cue_text(text_at(show, *title, first), kind));
   }
   return file;
 }

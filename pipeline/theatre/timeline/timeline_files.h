@@ -19,7 +19,8 @@ std::string otio_text(const Show& show, const FrameFolder& folder);
 std::string marker_list(const Show& show);
 
 enum class SubtitleKind { kWebVtt, kSubRip };
-// Returns the titles of the show and of its segments, in the order of their beginnings.
+// Returns the titles of the show and of its segments, in the order of their beginnings, whether the
+// show draws them or not.  Counters have their values in the first frame of a title.
 std::string subtitles(const Show& show, SubtitleKind kind);
 
 }  // namespace domefall

@@ -30,6 +30,8 @@ inline Show rich_show(const Projection& projection) {
   title.elevation = 40 * kDegree;
   title.height = 9 * kDegree;
   title.light = {2, 1, 0.5f};
+  title.plate = 0.4;
+  title.shadow = 0.6;
   show.titles = {title};
   return show;
 }

@@ -21,6 +21,9 @@ TEST_F(Titles, LastAsLongAsTheShowAtTheFrontUnlessTheySayOtherwise) {
   EXPECT_EQ(t.style, LetterStyle{});
   EXPECT_NEAR(t.light.r, 1, 1e-6);
   EXPECT_NEAR(t.light.b, 1, 1e-6);
+  EXPECT_EQ(t.plate, 0);
+  EXPECT_EQ(t.shadow, 0);
+  EXPECT_TRUE(show.draws_titles);
   EXPECT_EQ(with("camera: {projection: stereographic}\ntitles: [{text: a}]\n").titles[0].elevation,
             0);
 }
@@ -56,7 +59,10 @@ TEST_F(Titles, HaveLinesAPlaceALookAndALight) {
       "    font: DejaVu Serif Bold\n"
       "    align: right\n"
       "    colour: [1, 0, 0]\n"
-      "    brightness: 3\n");
+      "    brightness: 3\n"
+      "    plate: 0.5\n"
+      "    shadow: 0.75\n"
+      "draw_titles: false\n");
   const Title& t = show.titles.at(0);
   EXPECT_EQ(t.text, "Άστρον,\nthe star");
   EXPECT_DOUBLE_EQ(t.azimuth, -90 * kDegree);
@@ -64,6 +70,9 @@ TEST_F(Titles, HaveLinesAPlaceALookAndALight) {
   EXPECT_DOUBLE_EQ(t.height, 0.5 * kDegree);
   EXPECT_EQ(t.style.font, "DejaVu Serif Bold");
   EXPECT_EQ(t.style.align, TextAlign::kRight);
+  EXPECT_EQ(t.plate, 0.5);
+  EXPECT_EQ(t.shadow, 0.75);
+  EXPECT_FALSE(show.draws_titles);
   // Red of Rec.709 in ACEScg, as other programs convert it.
   EXPECT_NEAR(t.light.r, 3 * 0.6131, 3e-3);
   EXPECT_NEAR(t.light.g, 3 * 0.0702, 3e-3);
@@ -87,6 +96,25 @@ TEST_F(TitleMistakes, AreToldWithTheirPlaces) {
        "3:43: titles[1].duration_s must be at most 0.5 (seconds), got 1"},
       {title("text: a, at_s: 1, fade_in_s: 0.8, fade_out_s: 0.4"),
        "3:57: titles[1].fade_out_s makes 1.2 s of fades, but the title lasts 1 s"},
+      {title("text: 'r = {radius}'"),
+       "3:17: titles[1].text has an unknown counter {radius}; counters are r, time, proper_time, "
+       "year or speed"},
+      {title("text: '{speeed} c'"),
+       "3:17: titles[1].text has an unknown counter {speeed}; counters are r, time, proper_time, "
+       "year or speed; did you mean speed?"},
+      {title("text: '{{a} b'"),
+       "3:17: titles[1].text has a } without its {; a brace that is meant is doubled: {{ or }}"},
+      {title("text: 'a {r'"),
+       "3:17: titles[1].text has a { without its }; a brace that is meant is doubled: {{ or }}"},
+      {title("text: 'a {r {time}'"),
+       "3:17: titles[1].text has a { without its }; a brace that is meant is doubled: {{ or }}"},
+      {title("text: '{year}'"),
+       "3:17: titles[1].text has {year}, which needs the show's begins_year"},
+      {"begins_year: 2000\ntitles: [{text: '{r}'}]\ntimeline: [{duration_s: 2}]\n",
+       "2:17: titles[1].text has {r}, which needs a black hole: give the show "
+       "black_hole.mass_solar"},
+      {title("text: a, shadow: 1.5"), "3:28: titles[1].shadow must be at most 1, got 1.5"},
+      {title("text: a, plate: -1"), "3:27: titles[1].plate must be at least 0, got -1"},
       {title("text: a, height_deg: 0"),
        "3:32: titles[1].height_deg must exceed 0 (degrees), got 0"},
       {title("text: a, elevation_deg: 95"),

@@ -230,11 +230,155 @@ TEST(FrameTitles, EnterTheKeysOfTheFramesThatShowThem) {
   EXPECT_TRUE(changes([](Title& t) { t.elevation += 0.01; }));
   EXPECT_TRUE(changes([](Title& t) { t.height *= 1.01; }));
   EXPECT_TRUE(changes([](Title& t) { t.light.g = 0.9f; }));
+  EXPECT_TRUE(changes([](Title& t) { t.plate = 0.5; }));
+  EXPECT_TRUE(changes([](Title& t) { t.shadow = 0.5; }));
   EXPECT_TRUE(changes([](Title& t) { t.fades.out_s = 0.3; }));
   // A segment's title is the same title.
   Show moved = plain;
   moved.timeline[0].titles = {title};
   EXPECT_EQ(key(moved, 4), key(show, 4));
+  // Without its titles a show has the frames of one that has none.
+  show.draws_titles = false;
+  EXPECT_EQ(key(show, 4), key(plain, 4));
+}
+
+TEST(FrameTitles, EnterTheKeysWithWhatTheirCountersShow) {
+  Title title = title_of("{time}", 0, 45, 10);
+  title.end_s = 3;
+  Show show = show_of(StaticObserver{10}, Domemaster{64});
+  show.timeline[0].duration_s = 3;
+  show.frames_per_second = 10;
+  show.titles = {title};
+  FrameState state = frame_state(show, 12);
+  const auto key = [&](double t) {
+    state.show_time_s = t;
+    return titles_key(show, state);
+  };
+  EXPECT_EQ(key(1.1), key(1.9));
+  EXPECT_NE(key(1.1), key(2.1));
+  state.show_time_s = 2.1;
+  EXPECT_EQ(seen_titles(show, state).at(0).text, "0:02");
+  show.overlays = {OverlayKind::kNoTitles};
+  EXPECT_EQ(key(1.1), "");
+  EXPECT_TRUE(seen_titles(show, state).empty());
+}
+
+// The value of the pixel at a place of a dome, in degrees.
+double seen_at(const HalfFrame& frame, const Projection& projection, double azimuth,
+               double elevation) {
+  const auto pixel = pixel_of(projection, on_dome(azimuth, elevation));
+  return frame.row(static_cast<int>(std::lround(pixel->j)) -
+                   1)[3 * (static_cast<int>(std::lround(pixel->i)) - 1)];
+}
+
+// A title over light of 1 everywhere.
+HalfFrame on_white(const Title& title, const Projection& projection) {
+  HalfFrame frame(columns(projection), rows(projection));
+  std::ranges::fill(frame.pixels, Imath::half(1));
+  const Show show = titled(title, projection);
+  draw_titles(show, frame_state(show, 0), frame);
+  return frame;
+}
+
+TEST(TitleGround, APlateDimsTheWholeTextAndFallsOffSoftly) {
+  const Domemaster dome{512};
+  for (const double azimuth : {0., 90., 180.}) {
+    Title title = title_of("I I", azimuth, 30, 6);
+    title.plate = 0.75;
+    const HalfFrame frame = on_white(title, dome);
+    const double top = 33;  // of the letters
+    EXPECT_NEAR(seen_at(frame, dome, azimuth, 30), 0.25, 2e-3) << "between the letters";
+    EXPECT_NEAR(seen_at(frame, dome, azimuth, top + 1), 0.25, 2e-3);
+    // From half a capital above the text to 1.7 of them it falls off.
+    double last = 0.25;
+    for (const double up : {4.5, 6., 7.5, 9.}) {
+      const double light = seen_at(frame, dome, azimuth, top + up);
+      EXPECT_GT(light, last) << up;
+      last = light;
+    }
+    EXPECT_EQ(seen_at(frame, dome, azimuth, top + 13), 1);
+    EXPECT_EQ(seen_at(frame, dome, azimuth + 120, 30), 1);
+    EXPECT_EQ(seen_at(frame, dome, azimuth, 80), 1);
+  }
+}
+
+// It lies on the dome and not in the picture, so it is the same in pictures of all kinds, also
+// where a seam goes through it.
+TEST(TitleGround, IsTheSameInEveryProjectionAndAtEverySize) {
+  Title title = title_of("Light", 180, 25, 6);
+  title.plate = 0.75;
+  title.shadow = 0.5;
+  const auto taken = [&](const Projection& projection) {
+    const HalfFrame frame = on_white(title, projection);
+    double sum = 0;
+    for (int row = 0; row < frame.height; ++row) {
+      const ColumnRange inside = inside_columns(projection, row);
+      for (int column = inside.first; column <= inside.last; ++column)
+        sum += (1 - frame.row(row)[3 * column]) *
+               pixel_solid_angle(projection, {column + 1.0, row + 1.0});
+    }
+    return sum;
+  };
+  const double expected = taken(Domemaster{768});
+  EXPECT_GT(expected, 0.02);
+  EXPECT_NEAR(taken(Domemaster{192}) / expected, 1, 0.01);
+  EXPECT_NEAR(taken(Equirectangular{768}) / expected, 1, 0.01);
+  EXPECT_NEAR(taken(Fisheye{300, 300, std::numbers::pi * 1.9}) / expected, 1, 0.01);
+}
+
+TEST(TitleGround, AShadowIsDarkAroundLettersAndNotBetweenFarOnes) {
+  Title title = title_of("I          I", 0, 30, 6);
+  const Domemaster dome{512};
+  const auto darkest = [&](double shadow) {
+    title.shadow = shadow;
+    const HalfFrame frame = on_white(title, dome);
+    EXPECT_EQ(seen_at(frame, dome, 0, 30), 1) << "between the letters";
+    double least = 1;
+    for (double azimuth = -30; azimuth < 0; azimuth += 0.25)
+      least = std::min(least, seen_at(frame, dome, azimuth, 30));
+    return least;
+  };
+  EXPECT_EQ(darkest(0), 1);
+  // Beside a single stroke, which covers the darkest pixels.
+  EXPECT_NEAR(darkest(0.8), 0.2, 0.06);
+  EXPECT_NEAR(darkest(0.4), 0.6, 0.03);
+}
+
+// What mattes say of a title is what is missing of the light behind it, if its letters are black.
+TEST(TitleGround, CountsInMattes) {
+  Title title = title_of("Light", 20, 35, 7);
+  title.light = {0, 0, 0};
+  title.plate = 0.5;
+  title.shadow = 0.7;
+  title.fades.in_s = 4;
+  title.end_s = 8;
+  const Show show = titled(title, Domemaster{256});
+  FrameState state = frame_state(show, 0);
+  state.show_time_s = 2;
+  FloatImage frame(256, 256);
+  std::ranges::fill(frame.pixels, 1.0f);
+  draw_titles(show, state, frame);
+  const auto seen = seen_titles(show, state);
+  ASSERT_EQ(seen.size(), 1u);
+  const std::vector<float> covered = covered_by(seen[0], state);
+  int touched = 0;
+  for (std::size_t k = 0; k < covered.size(); ++k) {
+    ASSERT_NEAR(frame.pixels[3 * k], 1 - covered[k], 1e-6) << k;
+    touched += covered[k] > 0.1;
+  }
+  EXPECT_GT(touched, 200);
+}
+
+TEST(TextSurface, FindsThePointOfADirection) {
+  for (const double elevation : {0., 30., 75., 90.}) {
+    const TextSurface surface(audience_axes(Domemaster{64}, 0.2), 1, elevation * kDegree,
+                              3 * kDegree);
+    for (const TextPoint p : {TextPoint{0, 0}, {10, 0.5}, {-9, -2}, {30, 4}}) {
+      const TextPoint found = surface.point(surface.direction(p));
+      EXPECT_NEAR(found.x, p.x, 1e-9) << elevation;
+      EXPECT_NEAR(found.y, p.y, 1e-9) << elevation;
+    }
+  }
 }
 
 }  // namespace
