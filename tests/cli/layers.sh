@@ -88,13 +88,11 @@ awk -v off="$(most off.exr)" -v change="$(most change.exr)" 'BEGIN { exit !(off 
   fail "a dimmed disc is off by $(most off.exr), of a change of $(most change.exr)"
 
 # Mattes and identities: each body's matte is found again by its name, from the manifest.
-sed '/^output:/d' beacon.yaml >data.yaml
-cat >>data.yaml <<'END'
-output: {graded: none, name: f, data: [mattes, cryptomatte, lens]}
-titles: [{text: "Two: \"stars\"", at_s: 50, duration_s: 10, elevation_deg: 15, height_deg: 5}]
-END
-exits 0 "$DOMEFALL" render data.yaml --size 128 --frames 1700 --out data
-file=data/linear/f_01700.exr
+sed '/^output:/d; s/^titles:/&\n  - {text: "Two: \\"stars\\"", at_s: 40, duration_s: 8, elevation_deg: 15, height_deg: 5, shadow: 0.5}/' \
+  beacon.yaml >data.yaml
+printf 'output: {graded: none, name: f, data: [mattes, cryptomatte, lens]}\n' >>data.yaml
+exits 0 "$DOMEFALL" render data.yaml --size 128 --frames 1325 --out data
+file=data/linear/f_01325.exr
 # id_of NAME: the number of an object, out of the file's manifest.
 id_of() {
   oiiotool --info -v "$file" | python3 -c '
@@ -124,10 +122,10 @@ extract 'Two: "stars"'
 awk -v most="$(most extracted.exr)" 'BEGIN { exit !(most > 0.3) }' || fail "no matte of the title: $(most extracted.exr)"
 
 # The numbers of the lens are those of a lens map, and a disc's are those of the probe.
-exits 0 "$DOMEFALL" render data.yaml --size 128 --frames 1700 --lens-map --out data
+exits 0 "$DOMEFALL" render data.yaml --size 128 --frames 1325 --lens-map --out data
 channels=sky.x,sky.y,sky.z,st.s,st.t,light.one_plus_z,light.amplification,gas.radius
 oiiotool "$file" --ch $channels -o of_frame.exr
-oiiotool data/lens/f_01700.exr --ch $channels -o of_map.exr
+oiiotool data/lens/f_01325.exr --ch $channels -o of_map.exr
 same_pixels of_frame.exr of_map.exr || fail "frame and lens map differ"
 
 # Wrong lists are refused with their place.
