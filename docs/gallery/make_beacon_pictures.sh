@@ -9,5 +9,5 @@ out=${2:-out/gallery}/$show
 # shellcheck source=docs/gallery/mosaic.sh
 . docs/gallery/mosaic.sh
 
-mosaic stays 30,300,600,780,900,990,1080,1170 4x2 320
-mosaic follows 1350,1440,1500,1650,1800,2040,2160,2190 4x2 320
+mosaic stays 45,300,600,720,780,840,900,960 4x2 320
+mosaic follows 1050,1170,1290,1410,1590,1770,1815,2010 4x2 320

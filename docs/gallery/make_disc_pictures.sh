@@ -19,15 +19,15 @@ strip() {
 }
 
 mkdir -p "$out"
-frames=(120 840 1290 1650 1920)
+frames=(70 653 1290 1650 1920)
 "$domefall" render shows/disc.yaml --size 4k --frames "$(IFS=,; echo "${frames[*]}")" --out "$out"
 for frame in "${frames[@]}"; do
   printf -v name 'disc_%05d' "$frame"
   oiiotool "$out/graded/$name.png" --ch R,G,B --resize 700x700 --compression jpeg:84 -o "docs/gallery/$name.jpg"
 done
-oiiotool "$out/graded/disc_00840.png" --ch R,G,B --cut 1000x700+1500+2400 --compression jpeg:84 \
+oiiotool "$out/graded/disc_00653.png" --ch R,G,B --cut 1000x700+1500+2400 --compression jpeg:84 \
   -o docs/gallery/disc_crop.jpg
-strip plane 960 988 4
+strip plane 857 885 4
 strip horizon 1740 1789 7
 
 # As the film's renderer had it, and with its shifts of frequency left out, as in the film.

@@ -9,5 +9,5 @@ out=${2:-out/gallery}/$show
 # shellcheck source=docs/gallery/mosaic.sh
 . docs/gallery/mosaic.sh
 
-mosaic from_the_hole 780,870,900,930,980,1080 3x2 420
+mosaic from_the_hole 500,600,640,680,730,930 3x2 420
 mosaic from_S2 1220,1360,1440,1500,1560,1700 3x2 420

@@ -19,6 +19,6 @@ sheet() {
   done
   oiiotool "${files[@]}" --mosaic 6x4 --compression jpeg:82 -o "docs/gallery/look_productions_$show.jpg"
 }
-sheet into_the_dark 4554
+sheet into_the_dark 4306
 sheet flyby 3180
-sheet kruskal_journey 4298
+sheet kruskal_journey 4148

@@ -32,9 +32,9 @@ single() {
   oiiotool "$(picture "$1" "$2")" --ch R,G,B --resize 700x700 --compression jpeg:84 -o "docs/gallery/$1_$2s.jpg"
 }
 
-dark=(8 24 36 56 70 86 102 118 126 130 136 145)
-flyby=(8 16 22 27 34 45 50 62 70 76 86 98)
-kruskal=(5 10 13 16 22 30 36 58 64 91 98 129)
+dark=(8 24 36 56 70 86 100 110 118 122 128 137)
+flyby=(8 16 22 27 34 41 47 56 67 76 86 98)
+kruskal=(5 10 13 16 22 30 36 58 64 86 93 124)
 mkdir -p "$out"
 render into_the_dark "${dark[@]}"
 render flyby "${flyby[@]}"
@@ -42,9 +42,9 @@ render kruskal_journey "${kruskal[@]}"
 sheet into_the_dark "${dark[@]}"
 sheet flyby "${flyby[@]}"
 sheet kruskal_journey "${kruskal[@]}"
-for second in 56 86 136; do single into_the_dark "$second"; done
-for second in 27 45 86; do single flyby "$second"; done
-for second in 13 64 98; do single kruskal_journey "$second"; done
+for second in 56 86 128; do single into_the_dark "$second"; done
+for second in 27 56 86; do single flyby "$second"; done
+for second in 13 64 93; do single kruskal_journey "$second"; done
 
 "$domefall" render shows/horizon_strip.yaml --size 4k --out "$out/horizon_strip"
 strip=()
