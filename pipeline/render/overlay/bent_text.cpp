@@ -155,6 +155,13 @@ TextPoint TextSurface::point(const CameraDirection& n) const {
           (std::atanh(sine) - start_) / scale_};
 }
 
+TextRegion::TextRegion(const TextSurface& surface, double half_width, double half_height)
+    : front_(surface.front_),
+      pole_(surface.pole_),
+      least_sine_(std::tanh(surface.start_ - half_height * surface.scale_)),
+      largest_sine_(std::tanh(surface.start_ + half_height * surface.scale_)),
+      least_cosine_(std::cos(std::min(half_width * surface.scale_, std::numbers::pi))) {}
+
 void add_outlines(Digest& digest, const LetteredText& text) {
   constexpr double kSteps = 1e5;
   // Adding 0 turns -0 into 0, so that both count as one number.

@@ -1,6 +1,9 @@
 // Texts in an image, flat or bent onto the dome.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "pipeline/base/digest.h"
 #include "pipeline/base/lettering.h"
 #include "pipeline/render/overlay/coverage.h"
@@ -35,9 +38,28 @@ class TextSurface {
   double angle_about_pole(double half_width) const { return half_width * scale_; }
 
  private:
+  friend class TextRegion;
   V3d right_, front_, pole_;  // along the camera's axes; the middle is on the meridian of front_
   double scale_;              // radians about the pole for a unit of text
   double start_;              // Mercator's ordinate of the middle
+};
+
+// A TextRegion is the part of a surface within these half sides about the text's middle.
+class TextRegion {
+ public:
+  TextRegion(const TextSurface& surface, double half_width, double half_height);
+
+  // Says whether it holds a direction, in a tenth of the time that TextSurface::point() takes.
+  bool holds(const CameraDirection& n) const {
+    const double sine = n.v.dot(pole_), ahead = n.v.dot(front_);
+    return sine > least_sine_ && sine < largest_sine_ &&
+           ahead > least_cosine_ * std::sqrt(std::max(1 - sine * sine, 0.0));
+  }
+
+ private:
+  V3d front_, pole_;
+  double least_sine_, largest_sine_;  // of the latitudes about the pole
+  double least_cosine_;               // of the angles about it
 };
 
 // Adds a text on a surface as the projection shows it.  The text is moved by `shift` on the

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "pipeline/render/rays/sky_borders.h"
+#include "projections/pixel_directions.h"
 
 namespace domefall {
 namespace {
@@ -135,17 +137,27 @@ std::vector<CoveredRow> TitleGround::covered(const TextSurface& surface,
                                              const Projection& projection) const {
   std::vector<CoveredRow> covered;
   if (!(plate_ > 0 || shadow_ > 0)) return covered;
-  const PixelBox box = bounds(half_width_ + kReach, half_height_ + kReach, surface, projection);
+  const double half_width = half_width_ + kReach, half_height = half_height_ + kReach;
+  const PixelBox box = bounds(half_width, half_height, surface, projection);
+  const TextRegion region(surface, half_width, half_height);
+  std::vector<double> across, down, angles;
+  std::vector<CameraDirection> directions;
   for (int row = box.first_row; row <= box.last_row; ++row) {
     const ColumnRange inside = inside_columns(projection, row);
     const int first = std::max(box.first_column, inside.first),
               last = std::min(box.last_column, inside.last);
     if (first > last) continue;
+    const int count = last - first + 1;
+    const auto size = static_cast<std::size_t>(count);
+    across.resize(size), angles.resize(size), directions.resize(size);
+    std::iota(across.begin(), across.end(), first + 1.0);
+    down.assign(size, row + 1.0);
+    find_directions(projection, across.data(), down.data(), count, directions.data(),
+                    angles.data());
     CoveredRow& parts = covered.emplace_back(CoveredRow{row, first, {}});
-    parts.parts.reserve(static_cast<std::size_t>(last - first + 1));
-    for (int column = first; column <= last; ++column)
-      parts.parts.push_back(
-          darkness(surface.point(direction_at(projection, {column + 1.0, row + 1.0}))));
+    parts.parts.reserve(size);
+    for (const CameraDirection& n : directions)
+      parts.parts.push_back(region.holds(n) ? darkness(surface.point(n)) : 0);
   }
   return covered;
 }

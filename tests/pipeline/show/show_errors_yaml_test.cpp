@@ -35,11 +35,13 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, camera, "
        "effects, sky, stars, disc, bodies, exposure, grade, dome, output, begins_year, cameras, "
-       "keyframes, titles, markers, audio, fade_in_s, fade_out_s or timeline), got a list"},
+       "keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or timeline), got a "
+       "list"},
       {"hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, camera, "
        "effects, sky, stars, disc, bodies, exposure, grade, dome, output, begins_year, cameras, "
-       "keyframes, titles, markers, audio, fade_in_s, fade_out_s or timeline), got 'hello'"},
+       "keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or timeline), got "
+       "'hello'"},
       {"timeline:\n	- {duration_s: 2}\n", "2:1: a tab cannot indent YAML; use spaces"},
       {"timeline: [\n", "1:12: this is not valid YAML: end of sequence flow not found"},
       {"timeline:\n  - duration_s: 1\n   camera: {}\n",
@@ -63,7 +65,8 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
       {"projection: domemaster",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
        "camera, effects, sky, stars, disc, bodies, exposure, grade, dome, output, begins_year, "
-       "cameras, keyframes, titles, markers, audio, fade_in_s, fade_out_s or timeline"},
+       "cameras, keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or "
+       "timeline"},
       {"exposre: {ev: 1}", "3:1: exposre is an unknown key; did you mean exposure?"},
       {"camera: {projection: stereographic, fov: 90}",
        "3:37: camera.fov is an unknown key; did you mean fov_deg?"},
@@ -174,7 +177,8 @@ TEST_F(ShowErrorsInYaml, CharactersThatLookLikeOthersAreNamedWithTheirCode) {
        "1:1: timeline must be a list of at least one entry, got nothing\n2:1: \xC2\xA0 - "
        "duration_s is an unknown key; it begins with a no-break space (U+00A0), not a space; known "
        "here: title, frames_per_second, size, black_hole, camera, effects, sky, stars, disc, "
-       "bodies, exposure, grade, dome, output, begins_year, cameras, keyframes, titles, markers, "
+       "bodies, exposure, grade, dome, output, begins_year, cameras, keyframes, titles, "
+       "draw_titles, markers, "
        "audio, "
        "fade_in_s, fade_out_s or timeline"},
       {"timeline:\n  \u2013 duration_s: 1\n",

@@ -85,7 +85,7 @@ TEST_F(ShowErrorsInProjections, AreToldWithTheirPlace) {
        "width), got 8k"},
       {"camera: {projection: cubemap}\ntitles: [{text: Hello}]",
        "4:9: titles cannot be drawn on a cubemap, whose faces would cut them; an equirectangular "
-       "picture shows them"},
+       "picture shows them, and draw_titles: false leaves them out"},
       {"camera: {projection: equirectangular, fov_deg: 90}",
        "3:48: camera.fov_deg goes with the projections fisheye, stereographic and rectilinear; an "
        "equirectangular shows 360 degrees"},
