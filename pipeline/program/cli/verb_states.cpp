@@ -19,6 +19,7 @@
 #include "pipeline/show/file/read_show.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/state_columns.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {
@@ -70,6 +71,11 @@ void print_states_json(const Show& show, const std::vector<int>& frames) {
     nlohmann::ordered_json state;
     for (std::size_t k = 0; k < cells.size(); ++k) state[kStateColumns[k]] = json_of_cell(cells[k]);
     const FrameState view = dominant_view(frame_state(show, n));
+    const auto fov = field_of_view(view.projection);
+    state["projection"] = projection_name(view.projection);
+    state["fov_deg"] = fov ? *fov / kDegree : traits_of(view.projection).shown_deg;
+    state["width"] = columns(view.projection);
+    state["height"] = rows(view.projection);
     state["world_from_camera"] = json_of(world_from_camera(view.observer, view.projection));
     state["world_from_audience"] = json_of(world_from_audience(view));
     std::fputs((before + state.dump()).c_str(), stdout);
