@@ -12,6 +12,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/base/stop_watch.h"
 #include "pipeline/render/disc/disc_pass.h"
+#include "pipeline/render/disc_scene.h"
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/frame_bodies.h"
 #include "pipeline/render/frame_mattes.h"
@@ -168,7 +169,18 @@ void Renderer::render_frame(const FrameState& state, LayeredFrame<T>& frame, Sta
   for (int row = 0; !frame.alpha.empty() && row < frame.picture.height; ++row)
     fill_alpha(inside_columns(state.projection, row), row, frame);
   draw_titles(show_, state, frame);
-  draw_overlays(show_, state, memory_->labels, frame);
+  // Only names ask what a disc leaves of the light behind it.
+  std::optional<DiscScene> disc;
+  LightLeft left;
+  if (show_.disc && std::ranges::count(show_.overlays, OverlayKind::kStarNames) > 0) {
+    const FrameState& view = dominant_view(state);
+    disc.emplace(show_, view);
+    left = [&disc, width = largest_pixel_angle(view.projection)](const CameraDirection& from,
+                                                                 double psi) {
+      return disc->left_before(from, psi, width);
+    };
+  }
+  draw_overlays(show_, state, memory_->labels, left, frame);
 }
 
 // A frame with an open shutter is the mean of several instants.

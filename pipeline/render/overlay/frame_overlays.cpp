@@ -13,7 +13,7 @@ namespace domefall {
 namespace {
 
 // This number is raised with every change of how overlays are drawn.
-constexpr int kOverlayVersion = 2;
+constexpr int kOverlayVersion = 3;
 
 LetterStyle burn_in_style(TextAlign align) { return {"Monospace", align}; }
 
@@ -70,12 +70,12 @@ std::string overlays_key(const Show& show, const FrameState& state) {
 }
 
 void draw_overlays(const Show& show, const FrameState& state, StarLabels& labels,
-                   const FrameRef& frame) {
+                   const LightLeft& left, const FrameRef& frame) {
   for (const OverlayKind overlay : show.overlays) {
     if (overlay == OverlayKind::kBurnIn)
       draw_burn_in(show, state, frame);
     else if (overlay == OverlayKind::kStarNames)
-      labels.draw(dominant_view(state), frame);
+      labels.draw(dominant_view(state), frame, left);
     else if (overlay != OverlayKind::kNoTitles)
       draw_marks(overlay, show, state, frame);
   }

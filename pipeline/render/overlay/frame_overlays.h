@@ -15,9 +15,9 @@ namespace domefall {
 // overlay has text.
 std::string overlays_key(const Show& show, const FrameState& state);
 
-// Draws the show's overlays over a frame, in their order.  `labels` are those of the show.  Throws
-// as overlays_key() and as StarLabels.
+// Draws the show's overlays over a frame, in their order.  `labels` are those of the show, and `left`
+// is of dominant_view(state).  Throws as overlays_key() and as StarLabels.
 void draw_overlays(const Show& show, const FrameState& state, StarLabels& labels,
-                   const FrameRef& frame);
+                   const LightLeft& left, const FrameRef& frame);
 
 }  // namespace domefall

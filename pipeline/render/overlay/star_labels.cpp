@@ -55,16 +55,24 @@ NamedImage named_image(const std::string& name, int order, const CameraDirection
   return {name + (order > 0 ? "\u2032" : ""), order > 0, direction, magnitude};
 }
 
+// Returns the light that is left of an image where a disc may be.
+double left_of(const LightLeft& left, const CameraDirection& from, double psi) {
+  return left ? left(from, psi) : 1;
+}
+
 // Appends the first two images of each body, as for a star.
-void append_bodies(const Show& show, const FrameState& state, std::vector<NamedImage>& found) {
+void append_bodies(const Show& show, const FrameState& state, const LightLeft& left,
+                   std::vector<NamedImage>& found) {
   const BodySight sight(state, show.effects, show.least_star_radius);
   if (!sight.sees()) return;
   for (const Body& body : bodies_at(show, state.settings))
     for (int order = 0; order < 2; ++order)
       if (const auto image = sight.image(body, order)) {
         const BodySight::Seen seen = sight.seen(image->at);
-        const double magnitude = seen_magnitude(show.effects, body.magnitude, body.temperature,
-                                                seen.brightening, seen.frequency_ratio);
+        const double magnitude =
+            seen_magnitude(show.effects, body.magnitude, body.temperature,
+                           seen.brightening * left_of(left, seen.direction, image->traced.psi),
+                           seen.frequency_ratio);
         if (magnitude <= kFaintestNamedImage)
           found.push_back(named_image(body.name, order, seen.direction, magnitude));
       }
@@ -92,7 +100,7 @@ const std::vector<StarLabels::NamedStarOfSky>& StarLabels::stars_of(SkyRegion sk
   return *named;
 }
 
-std::vector<NamedImage> StarLabels::images(const FrameState& state) {
+std::vector<NamedImage> StarLabels::images(const FrameState& state, const LightLeft& left) {
   std::vector<NamedImage> found;
   const StarSight finder(state, show_.effects);
   for (const SkyRegion sky : kExteriorSkies) {
@@ -104,26 +112,30 @@ std::vector<NamedImage> StarLabels::images(const FrameState& state) {
       if (!(drawn > 0)) break;  // the stars that follow are fainter
       for (int order = 0; order < std::min(finder.orders(), 2); ++order) {
         const StarSight::Image image = finder.image(sky, star.direction, order);
-        const double magnitude = seen_magnitude(show_.effects, star.magnitude, star.temperature,
-                                                drawn * image.brightening, image.frequency_ratio);
+        const auto seen_v = [&](double part) {
+          return seen_magnitude(show_.effects, star.magnitude, star.temperature,
+                                part * drawn * image.brightening, image.frequency_ratio);
+        };
+        if (!(seen_v(1) <= kFaintestNamedImage)) continue;
+        const double magnitude = seen_v(left_of(left, image.direction, HUGE_VAL));
         if (!(magnitude <= kFaintestNamedImage)) continue;
         found.push_back(named_image(star.name, order, image.direction, magnitude));
       }
     }
   }
-  append_bodies(show_, state, found);
+  append_bodies(show_, state, left, found);
   std::ranges::stable_sort(found, {}, &NamedImage::magnitude);
   return found;
 }
 
 // The ring and the name lie on the surface of a text that has the image in its middle.
-void StarLabels::draw(const FrameState& state, const FrameRef& frame) {
+void StarLabels::draw(const FrameState& state, const FrameRef& frame, const LightLeft& left) {
   const Projection& projection = state.projection;
   const double letter =
       std::max(kLeastLabel, kLabelPart * std::min(frame.width, frame.height));  // pixels
   std::vector<ImagePoint> taken;  // by names, as discs along them
   Coverage primary(frame.width, frame.height), secondary(frame.width, frame.height);
-  for (const NamedImage& image : images(state)) {
+  for (const NamedImage& image : images(state, left)) {
     const auto pixel = pixel_of(projection, image.direction);
     if (!pixel || !is_in_image(projection, *pixel)) continue;
     const LetteredText text = lettered(image.name, label_style());

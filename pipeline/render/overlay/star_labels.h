@@ -1,6 +1,7 @@
 // StarLabels write the names of bright stars beside their lensed images.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,10 @@ struct NamedImage {
   double magnitude = 0;
 };
 
+// A LightLeft says which part, 0 to 1, of the light from a direction gets past the disc, if it has
+// swept the angle psi since it set out, or comes from behind everything (HUGE_VAL).
+using LightLeft = std::function<double(const CameraDirection& from, double psi)>;
+
 class StarLabels {
  public:
   // The show must outlive the labels.
@@ -32,13 +37,14 @@ class StarLabels {
   // Returns the images of the named stars of all skies that are seen, and those of bodies, the
   // brightest first.  They are where the renderer draws them, even if that is outside the frame.
   // At most the first two images of a star are found.  Where light goes straight, there is only
-  // one.  Reads the catalogues when they are first needed.  Throws as read_star_catalogue.
-  std::vector<NamedImage> images(const FrameState& state);
+  // one.  A disc dims images, and hides them.  Reads the catalogues when they are first needed.
+  // Throws as read_star_catalogue.
+  std::vector<NamedImage> images(const FrameState& state, const LightLeft& left = {});
 
   // Draws a ring around each image, and its name beside it, upright for the audience.  Rings and
   // names of secondary images are dimmer.  An image has neither if its name would lie over another
   // name or be cut off.
-  void draw(const FrameState& state, const FrameRef& frame);
+  void draw(const FrameState& state, const FrameRef& frame, const LightLeft& left);
 
  private:
   struct NamedStarOfSky {

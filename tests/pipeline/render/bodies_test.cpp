@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipeline/light/body_image.h"
+#include "pipeline/render/disc_scene.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/overlay/star_labels.h"
 #include "pipeline/render/scene/body_sight.h"
@@ -212,6 +213,24 @@ TEST(Bodies, AreHiddenByADiscBeforeThem) {
     disc.luminance = 1e-12;
     return light_of(body_frame(hidden)).sum / alone;
   };
+  // What is hidden has no name, but the image that comes around the hole on the other side has.
+  const auto names = [&](double opacity) {
+    Show hidden = show;
+    hidden.bodies[0].name = "beacon";
+    Disc& disc = hidden.disc.emplace();
+    disc.normal = {column(axes, 2) * std::cos(0.3) - column(axes, 0) * std::sin(0.3)};
+    disc.node = {column(axes, 1)};
+    disc.outer = 26, disc.opacity = opacity;
+    const FrameState state = frame_state(hidden, 0);
+    const DiscScene scene(hidden, state);
+    return StarLabels(hidden).images(state, [&](const CameraDirection& from, double psi) {
+      return scene.left_before(from, psi, 0.01);
+    });
+  };
+  const auto seen = names(1e-9), hidden = names(1);
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen[0].name, "beacon");
+  EXPECT_TRUE(std::ranges::none_of(hidden, [](const auto& image) { return !image.secondary; }));
   EXPECT_LT(light_left(0.3, 6, 1), 0.05);
   EXPECT_NEAR(light_left(0.3, 6, 0.25), 0.75, 0.03);
   EXPECT_GT(light_left(0.3, 20, 1), 0.95);
