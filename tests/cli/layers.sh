@@ -140,3 +140,38 @@ refuses 'layers: sky' 'output.layers'
 refuses 'linear: none, layers: [sky]' 'output.layers are in scene-linear files'
 refuses 'data: [lens, matte]' "output.data\[2\] must be lens.*'matte'; did you mean mattes"
 refuses 'linear: none, data: [lens]' 'output.data are in scene-linear files'
+
+# The gizmo for Nuke, by its grammar alone: what its statements leave on the stack is one picture, of
+# which every layer is a part.
+python3 - "$DOMEFALL_SOURCE/docs/domefall_layers.gizmo" <<'END'
+import re, sys
+text = re.sub(r"^#.*\n", "", open(sys.argv[1]).read(), flags=re.M)
+statement = re.compile(r"\s*(?:set (?P<set>\w+) \[stack 0\]|push \$(?P<push>\w+)|(?P<end>end_group)|(?P<node>\w+) \{)")
+stack, kept, inputs, at = [], {}, {}, 0
+while text[at:].strip():
+    found = statement.match(text, at)
+    assert found, text[at:at + 60]
+    at = found.end()
+    if found["set"]:
+        kept[found["set"]] = stack[-1]
+    elif found["push"]:
+        stack.append(kept[found["push"]])
+    elif found["node"]:
+        begin, depth = at, 1
+        while depth:
+            depth += {"{": 1, "}": -1}.get(text[at], 0)
+            at += 1
+        if found["node"] == "Gizmo":
+            continue
+        knobs = text[begin:at - 1]
+        name, count = re.search(r"name (\w+)", knobs)[1], int((re.search(r"inputs (\d)", knobs) or [0, 1])[1])
+        inputs[name] = (found["node"], knobs, [stack.pop() for _ in range(count)])
+        stack.append(name)
+def parts(name):
+    node, knobs, behind = inputs[name]
+    own = {re.search(r"in (\w+)", knobs)[1]} if node == "Shuffle" else set()
+    return own.union(*(parts(one) for one in behind))
+assert parts("Output1") == {"sky", "stars", "disc", "bodies", "titles"}, parts("Output1")
+over = next(node for node in inputs.values() if "operation over" in node[1])
+assert parts(over[2][1]) == {"titles"}, over
+END
