@@ -84,7 +84,8 @@ Cryptomatte identities(const Show& show, const FrameState& state,
   std::set<std::string> names;
   for (const Body& body : show.bodies) names.insert(body.name);
   const auto add_names = [&](const std::vector<Title>& titles) {
-    for (const Title& title : titles) names.insert(title.text);
+    for (const Title& title : titles)
+      if (!title.text.empty()) names.insert(title.text);
   };
   add_names(show.titles);
   for (const Segment& segment : show.timeline) add_names(segment.titles);
@@ -93,7 +94,8 @@ Cryptomatte identities(const Show& show, const FrameState& state,
   for (std::size_t k = 0; k < show.bodies.size(); ++k)
     identities.add(show.bodies[k].name, mattes[k].covered);
   for (const SeenTitle& seen : seen_titles(show, state))
-    identities.add_in_front(seen.title->text, covered_by(seen, state));
+    if (!seen.title->text.empty())
+      identities.add_in_front(seen.title->text, covered_by(show, seen, state));
   return identities;
 }
 

@@ -132,7 +132,8 @@ std::vector<std::string> PixelProbe::titles() const {
   for (const SeenTitle& seen : seen_titles(show_, state_)) {
     const auto pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
                        static_cast<std::size_t>(column);
-    if (covered_by(seen, state_)[pixel] > 0) found.push_back(seen.text);
+    if (!seen.text.empty() && covered_by(show_, seen, state_)[pixel] > 0)
+      found.push_back(seen.text);
   }
   return found;
 }

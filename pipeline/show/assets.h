@@ -17,6 +17,7 @@ inline constexpr std::string_view kDeepestStars = "tycho2.stars";
 inline constexpr std::string_view kMilkyWay = "milky_way.sky";
 inline constexpr std::string_view kDeepMilkyWay = "milky_way_deep.sky";
 inline constexpr std::string_view kSkyPlaces = "sky_places.csv";
+inline constexpr std::string_view kFigures = "figures.csv";  // of constellations
 inline constexpr std::string_view kDomeConfig = "dome.ocio";
 
 // Returns the folder that holds these files.  If $DOMEFALL_ASSETS is set, it names the folder.

@@ -106,7 +106,12 @@ struct Title {
   LetterStyle style;
   double begin_s = 0, end_s = 0;  // show seconds
   Fades fades;
-  // The middle of the text stands at this place (radians): to the right of the audience's front,
+  // The text stands below the image of this place on the sky, if there is one, as the lens and the
+  // motion show it.
+  std::optional<SkyDirection> place{};
+  // These lines are drawn on the sky in the same light, each through two places or more.
+  std::vector<std::vector<SkyDirection>> figure{};
+  // Otherwise the middle of the text stands here (radians): to the right of the audience's front,
   // and above their horizon or, on a flat image, above the line of sight.
   double azimuth = 0, elevation = 0;
   double height = 0;          // of a capital H, radians
@@ -226,10 +231,17 @@ inline constexpr std::pair<std::string_view, Amplification> kAmplifications[] = 
 
 // ---- the whole ----
 
+// A MarkerEvent is the first instant at which the observer is at r or, without r, nearest to the
+// hole on a way that leads away from it again.
+struct MarkerEvent {
+  std::optional<double> r;  // M
+};
+
 // A Marker is an instant of the show that bears a name.
 struct Marker {
   std::string name;
-  double at_s = 0;  // show seconds
+  double at_s = 0;  // show seconds; NaN for an event until the timeline is known
+  std::optional<MarkerEvent> event{};
 };
 
 // FrameNames say how the files of frames are called: NAME_00000 and so on.

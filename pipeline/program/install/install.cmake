@@ -33,7 +33,7 @@ install(FILES pipeline/program/install/domefall.bash RENAME domefall
 
 set(assets_source ${PROJECT_SOURCE_DIR}/shows/assets)
 install(FILES ${maps}
-  ${assets_source}/dome.ocio ${assets_source}/sky_places.csv ${assets_source}/star_corrections.csv
+  ${assets_source}/dome.ocio ${assets_source}/figures.csv ${assets_source}/sky_places.csv ${assets_source}/star_corrections.csv
   ${assets_source}/stars_to_8.csv ${assets_source}/stars_to_9.stars
   ${assets_source}/milky_way.exr ${assets_source}/milky_way_deep.exr
   DESTINATION ${data}/assets)

@@ -64,6 +64,7 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
         fmt::format("is seen in no frame, since none falls into its {:.3g} s; a longer duration_s "
                     "would show it",
                     title.end_s - title.begin_s));
+  if (title.text.empty()) return;  // a figure alone
   if (!has_ink(letters)) {
     warn("writes nothing, since none of its characters has any ink");
     return;
@@ -74,6 +75,7 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
   if (letters.missing > 0)
     warn(fmt::format("has {} letter{} that no font of this machine has, drawn as boxes",
                      letters.missing, letters.missing == 1 ? "" : "s"));
+  if (title.place) return;  // it goes where its place on the sky is seen
   const auto middle = pixel_of(state.projection, surface.direction({0, 0}));
   if (!middle || !is_in_image(state.projection, *middle))
     warn("has its middle outside the picture");

@@ -1,13 +1,16 @@
 #include "pipeline/render/overlay/frame_titles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <tuple>
 
 #include "pipeline/base/digest.h"
 #include "pipeline/render/overlay/bent_text.h"
 #include "pipeline/render/overlay/coverage.h"
+#include "pipeline/render/overlay/sky_figure.h"
 #include "pipeline/render/overlay/title_ground.h"
 #include "pipeline/render/rays/key_rounding.h"
 #include "pipeline/show/title_text.h"
@@ -50,28 +53,54 @@ std::shared_ptr<const LetteredText> title_letters(const std::string& text,
 
 namespace {
 
+// This is raised with every change of how figures are drawn.
+constexpr int kFigureVersion = 1;
+
 // A TitleOnDome is what a title draws in one frame, and where.
 class TitleOnDome {
  public:
-  TitleOnDome(const SeenTitle& seen, const FrameState& state)
+  TitleOnDome(const Show& show, const SeenTitle& seen, const FrameState& state)
       : projection_(state.projection),
         letters_(title_letters(seen.text, seen.title->style)),
-        surface_(state.camera_from_audience, seen.title->azimuth, seen.title->elevation,
-                 seen.title->height),
-        ground_(*letters_, seen.title->plate, seen.title->shadow) {}
+        figure_(seen.title->figure),
+        ground_(*letters_, seen.title->plate, seen.title->shadow) {
+    const Title& title = *seen.title;
+    if (title.place) sky_.emplace(state, show.effects);
+    if (!title.place)
+      surface_.emplace(state.camera_from_audience, title.azimuth, title.elevation, title.height);
+    else if (sky_->is_seen())
+      surface_.emplace(below(title, state));
+  }
 
-  Coverage letters() const {
+  // The lines of a figure, and the letters.
+  Coverage ink() const {
     Coverage coverage(columns(projection_), rows(projection_));
-    add_text(*letters_, surface_, {0, 0}, projection_, coverage);
+    if (surface_) add_text(*letters_, *surface_, {0, 0}, projection_, coverage);
+    if (sky_ && sky_->is_seen()) add_figure(figure_, *sky_, projection_, coverage);
     return coverage;
   }
-  std::vector<CoveredRow> ground() const { return ground_.covered(surface_, projection_); }
+  std::vector<CoveredRow> ground() const {
+    return surface_ ? ground_.covered(*surface_, projection_) : std::vector<CoveredRow>();
+  }
 
  private:
+  // Returns where a text lies that stands clear below the image of its place.
+  TextSurface below(const Title& title, const FrameState& state) const {
+    constexpr double kGap = 1.5;  // from the image to the middle of a line, in capitals
+    const V3d seen =
+        apply_transposed(state.camera_from_audience, sky_->image(*title.place).v).normalized();
+    const double lines = letters_->half_height;
+    return {state.camera_from_audience, std::atan2(seen.x, seen.y),
+            std::asin(std::clamp(seen.z, -1.0, 1.0)) - (kGap + lines - 0.5) * title.height,
+            title.height};
+  }
+
   const Projection& projection_;
   std::shared_ptr<const LetteredText> letters_;
-  TextSurface surface_;
+  std::optional<DirectSky> sky_;  // of a title that belongs to a place on it
+  const std::vector<std::vector<SkyDirection>>& figure_;
   TitleGround ground_;
+  std::optional<TextSurface> surface_;
 };
 
 }  // namespace
@@ -89,6 +118,16 @@ std::string titles_key(const Show& show, const FrameState& state) {
       digest.add(rounded_for_key(v));
     for (const float v : {title.light.r, title.light.g, title.light.b})
       digest.add(static_cast<double>(v));
+    if (title.place) {
+      digest.add("place");
+      for (const double v : {title.place->v.x, title.place->v.y, title.place->v.z})
+        digest.add(rounded_for_key(v));
+    }
+    for (const auto& line : title.figure) {
+      digest.add("line").add(kFigureVersion);
+      for (const SkyDirection& end : line)
+        for (const double v : {end.v.x, end.v.y, end.v.z}) digest.add(rounded_for_key(v));
+    }
     // Titles without a ground keep the keys that they had before there was one.
     if (title.plate > 0) digest.add("plate").add(title.plate);
     if (title.shadow > 0) digest.add("shadow").add(title.shadow);
@@ -96,7 +135,7 @@ std::string titles_key(const Show& show, const FrameState& state) {
   return digest.hex();
 }
 
-std::vector<float> covered_by(const SeenTitle& seen, const FrameState& state) {
+std::vector<float> covered_by(const Show& show, const SeenTitle& seen, const FrameState& state) {
   const auto width = static_cast<std::size_t>(columns(state.projection));
   std::vector<float> covered(width * static_cast<std::size_t>(rows(state.projection)));
   const auto cover = [&](int row, int first, std::span<const double> parts) {
@@ -109,18 +148,18 @@ std::vector<float> covered_by(const SeenTitle& seen, const FrameState& state) {
       pixels[column] = pixels[column] * (1 - part) + part;
     }
   };
-  const TitleOnDome drawn(seen, state);
+  const TitleOnDome drawn(show, seen, state);
   for (const CoveredRow& row : drawn.ground()) cover(row.row, row.first, row.parts);
-  drawn.letters().for_each_row(cover);
+  drawn.ink().for_each_row(cover);
   return covered;
 }
 
 void draw_titles(const Show& show, const FrameState& state, const FrameRef& frame) {
   // Each title has its own light and opacity, and so its own coverage.
   for (const SeenTitle& seen : seen_titles(show, state)) {
-    const TitleOnDome drawn(seen, state);
+    const TitleOnDome drawn(show, seen, state);
     draw_over(drawn.ground(), {{0, 0, 0}, seen.opacity}, state.projection, frame);
-    draw_over(drawn.letters(), {seen.title->light, seen.opacity}, state.projection, frame);
+    draw_over(drawn.ink(), {seen.title->light, seen.opacity}, state.projection, frame);
   }
 }
 

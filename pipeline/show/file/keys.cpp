@@ -19,10 +19,12 @@ constexpr std::string_view kRows = R"(
 | `keyframes` | what changes during the show, [below](#keyframes) | |
 | `titles` | texts on the dome, [below](#titles) | |
 | `draw_titles` | `true` or `false`: whether the titles of the show and of its segments are drawn, [below](#a-show-without-its-titles) | [`true`] |
-| `markers` | names for instants of the show, `{door_opens: 0:34}`, or a file of OpenTimelineIO such as `cut.otio`, [below](#times-and-markers) | |
+| `markers` | names for instants of the show, `{door_opens: 0:34}`, or for events, `{horizon: {r: 2}}`, or a file of OpenTimelineIO such as `cut.otio`, [below](#times-and-markers) | |
 | `audio` | its sound: a file, or a list of files with one channel each, as [movies.md](movies.md#sound) says. Movies, deliveries and the preview have it, unless `--audio` names another | none |
 | `fade_in_s`, `fade_out_s` | at least 0: seconds in which the show comes out of black at its start, and sinks to black at its end | [0] |
 | `timeline` | the list of segments, below | required |
+## marker
+| `r` | 1e-6 to 1e9 M: the event is the first instant at which the observer is there | required |
 ## black_hole
 | `mass_solar` | 0 to 1e13 solar masses; 0 is flat space: from 1e-20 on, or 0 for no hole | [0] |
 | `at` | where the hole stands on the sky at the start: a [place on the sky](#places-on-the-sky) | [266.405, -28.936: the galactic centre] |
@@ -135,6 +137,8 @@ constexpr std::string_view kRows = R"(
 | `fade_in_s`, `fade_out_s` | at least 0: seconds, of the duration, in which it comes and goes | [0] |
 | `azimuth_deg` | -360 to 360: where its middle is, to the right of the audience's front: 90 is at the right hand, 180 behind | [0] |
 | `elevation_deg` | -90 to 90: above the audience's horizon; on a flat picture above its middle | [30], flat [0] |
+| `place` | a [place on the sky](#places-on-the-sky): the title stands below its image, wherever that is seen | |
+| `figure` | a constellation, in Latin or by its abbreviation: its lines are drawn on the sky, and the text stands at their middle or at `place` | |
 | `height_deg` | above 0, at most 60: of a capital letter | [2] |
 | `font` | a family and perhaps a style: `DejaVu Serif Bold Italic` | [`Sans`] |
 | `align` | `left`, `centre` or `right`: of lines of different lengths | [`centre`] |

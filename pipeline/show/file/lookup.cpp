@@ -94,6 +94,22 @@ std::vector<NamedStar> read_sky_places(const std::filesystem::path& file) {
   return places;
 }
 
+std::map<std::string, SkyFigure> read_sky_figures(const std::filesystem::path& file) {
+  CsvFile row(file, {"constellation", "abbreviation", "line", "ra_deg", "dec_deg"});
+  std::map<std::string, SkyFigure> figures;
+  while (row.next()) {
+    const auto line = static_cast<std::size_t>(row.required("line", 1, 1000));
+    const SkyDirection place =
+        sky_direction(row.required("ra_deg", 0, 360), row.required("dec_deg", -90, 90));
+    for (const char* column : {"constellation", "abbreviation"}) {
+      SkyFigure& figure = figures[folded_place_name(row.text(column))];
+      figure.resize(std::max(figure.size(), line));
+      figure[line - 1].push_back(place);
+    }
+  }
+  return figures;
+}
+
 std::optional<fs::path> Lookup::find(const std::string& name) const {
   // The folder of the show comes first, so that a show moves to another machine together with its
   // files.  An absolute name replaces the folder, and both candidates are then the same file.
@@ -187,6 +203,26 @@ std::optional<SkyDirection> Lookup::place(const Item& item,
             "', which is no star, constellation or object that Domefall knows" +
             (odd.empty() ? "" : "; it " + odd) +
             (near.empty() ? "" : "; did you mean " + near + "?"));
+  return std::nullopt;
+}
+
+std::optional<SkyFigure> Lookup::figure(const Item& item) {
+  const auto name = read_text(item);
+  const auto file = name && figures_.empty() ? shipped(item, kFigures) : std::nullopt;
+  if (!name || (figures_.empty() && !file)) return std::nullopt;
+  try {
+    if (file) figures_ = read_sky_figures(*file);
+  } catch (const InputError& error) {
+    item.fail("needs the table of figures: " + std::string(error.what()));
+    return std::nullopt;
+  }
+  const auto found = figures_.find(folded_place_name(*name));
+  if (found != figures_.end()) return found->second;
+  std::vector<std::string_view> names;
+  names.reserve(figures_.size());
+  for (const auto& [known, figure] : figures_) names.push_back(known);
+  item.fail("names '" + shown(*name) + "', which is no constellation" +
+            did_you_mean(folded_place_name(*name), names));
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,6 +45,13 @@ class SkyPlaces {
 // file.
 std::vector<NamedStar> read_sky_places(const std::filesystem::path& file);
 
+// A SkyFigure is the lines of a constellation, each through two places or more.
+using SkyFigure = std::vector<std::vector<SkyDirection>>;
+
+// Reads a table with the columns constellation, abbreviation, line, ra_deg and dec_deg (J2000), and
+// returns the figures by both names, folded as those of places.  Throws InputError naming the file.
+std::map<std::string, SkyFigure> read_sky_figures(const std::filesystem::path& file);
+
 class Lookup {
  public:
   // `folder` is that of the show file, empty if the file was named without one.
@@ -69,6 +77,9 @@ class Lookup {
   // message about an unknown name.
   std::optional<SkyDirection> place(const Item& item, std::span<const std::string_view> words = {});
 
+  // Returns the figure of a constellation by its Latin name or its abbreviation.
+  std::optional<SkyFigure> figure(const Item& item);
+
  private:
   std::optional<SkyDirection> find_place(const Item& item, const std::string& name);
   // Reads the stars (0) or the other places (1).  Reports a file that is missing or damaged.
@@ -77,6 +88,7 @@ class Lookup {
   std::filesystem::path folder_;
   SkyPlaces places_;
   int tables_read_ = 0;
+  std::map<std::string, SkyFigure> figures_;  // empty until the first is asked for
 };
 
 // Reads a place on the sky: its name, {star: NAME}, or {ra_deg: X, dec_deg: Y} in J2000.

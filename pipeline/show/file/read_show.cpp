@@ -79,7 +79,15 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.grade = read_grade(section, lookup);
   show.draws_titles = section.flag("draw_titles");
   show.timeline = read_timeline(section, show, camera, lookup);
-  if (!show.timeline.empty()) show.titles = read_titles(section, {0, end_of(show)}, show);
+  // Events are found on a timeline without mistakes.
+  if (root.problems->count() == 0) {
+    join_segments(show);
+    find_marked_events(section, show);
+  } else {
+    for (Marker& marker : show.markers)
+      if (marker.event) marker.at_s = 0;
+  }
+  if (!show.timeline.empty()) show.titles = read_titles(section, {0, end_of(show)}, show, lookup);
   show.grade.dome = read_dome(section, show.projection);
   show.output = read_output(section);
 }

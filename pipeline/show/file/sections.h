@@ -64,7 +64,8 @@ struct TitleSpan {
   double begin_s, end_s;
 };
 // Reads the titles of a section of a show whose projection and markers are known.
-std::vector<Title> read_titles(const Section& section, const TitleSpan& span, const Show& show);
+std::vector<Title> read_titles(const Section& section, const TitleSpan& span, const Show& show,
+                               Lookup& lookup);
 
 // ---- cameras ----
 

@@ -12,12 +12,14 @@
 #include "pipeline/base/utf8.h"
 #include "pipeline/show/file/otio_markers.h"
 #include "pipeline/show/nearest_word.h"
+#include "pipeline/show/show_event.h"
 
 namespace domefall {
 namespace {
 
 // A show is at most 10,000,000 seconds long.  This is the length of kMostFrames at the lowest frame
 // rate, 1 a second.
+constexpr std::string_view kPeriastron = "periastron";
 constexpr Range kShowTime = Range{"seconds"}.within(0, 1e7);
 
 bool is_digits(std::string_view text) {
@@ -163,10 +165,28 @@ std::vector<Marker> read_markers(const Section& show, const Lookup& lookup) {
   for (const auto& [name, item] : entries_of(*list)) {
     if (!can_name_a_marker(name))
       item.fail("has a name that is a time itself; begin it with a letter");
+    else if (item.node.IsMap())
+      markers.push_back({name, std::nan(""), MarkerEvent{Section(item, {"marker"}).required("r")}});
+    else if (item.node.IsScalar() && item.node.Scalar() == kPeriastron)
+      markers.push_back({name, std::nan(""), MarkerEvent{}});
     else if (const auto at = read_time(item, kShowTime))
       markers.push_back({name, *at});
   }
   return markers;
+}
+
+void find_marked_events(const Section& section, Show& show) {
+  for (Marker& marker : show.markers) {
+    if (!marker.event) continue;
+    const auto at = time_of(*marker.event, show);
+    if (!at)
+      peek(*section.find("markers"), marker.name)
+          ->fail(marker.event->r
+                     ? fmt::format("happens nowhere in the show, which is never at r = {}",
+                                   short_number(*marker.event->r))
+                     : "happens nowhere in the show, whose r never falls and rises again");
+    marker.at_s = at.value_or(0);
+  }
 }
 
 std::optional<double> read_time(const Item& item, const Range& range,
@@ -175,8 +195,12 @@ std::optional<double> read_time(const Item& item, const Range& range,
     // The name of no marker has the form of a time (read_markers), so a clock time may come first.
     const std::string& text = item.node.Scalar();
     if (const auto clock = parse_clock_time(text)) return in_range(item, *clock, range);
-    if (const Marker* marker = find_marker(text, markers))
-      return read_marked(item, *marker, range, start);
+    if (const Marker* marker = find_marker(text, markers)) {
+      if (!std::isnan(marker->at_s)) return read_marked(item, *marker, range, start);
+      item.fail("is an event, '" + shown(text) +
+                "', whose time follows from the timeline; titles of the show may begin at it");
+      return std::nullopt;
+    }
     if (text.find(':') != std::string::npos) {
       const std::string odd = odd_character(text);
       item.fail("must be seconds, or minutes and seconds such as 1:02.5, got '" + shown(text) +

@@ -28,6 +28,10 @@ void read_frame_rate(const Section& section, Show& show);
 // Reads the show's `markers`, which are in the show or in a file of OpenTimelineIO.
 std::vector<Marker> read_markers(const Section& show, const Lookup& lookup);
 
+// Finds the instants of markers that name events.  Reports an event that no segment of the show
+// has, which must have its joints.
+void find_marked_events(const Section& section, Show& show);
+
 // Reads a time as parse_time does, in seconds since the show's second `start`.  Numbers and clock
 // times count from there, and markers from the beginning of the show.
 std::optional<double> read_time(const Item& item, const Range& range,

@@ -55,7 +55,7 @@ class TimelineReader {
     read_view(section, begin, segment);
     read_motion(item, section, begin, segment);
     end_ = begin + segment.duration_s;
-    segment.titles = read_titles(section, {begin, end_}, show_);
+    segment.titles = read_titles(section, {begin, end_}, show_, lookup_);
     joint_ = joint_after(
         segments_.empty() ? first_joint(show_, segment) : joint_into(joint_, segment), segment);
     segments_.push_back(std::move(segment));

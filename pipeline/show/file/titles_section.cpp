@@ -10,7 +10,8 @@ namespace {
 constexpr std::size_t kLongestText = 2000;  // bytes
 
 void read_words(const Section& s, const Show& show, Title& title) {
-  const Item* item = s.require("text", ", e.g. text: Sagittarius A*");
+  const Item* item =
+      s.find("figure") ? s.find("text") : s.require("text", ", e.g. text: Sagittarius A*");
   const auto text = item ? read_lines(*item) : std::nullopt;
   if (text && text->size() > kLongestText)
     item->fail(fmt::format("may have {} bytes, got {}", kLongestText, text->size()));
@@ -53,11 +54,27 @@ void read_title_times(const Section& s, const TitleSpan& span, const Show& show,
   check_fades(s, title.fades, duration, "the title");
 }
 
-Title read_title(const Item& item, const TitleSpan& span, const Show& show) {
+// Reads what a title belongs to on the sky, which says where it stands.
+void read_title_place(const Section& s, Lookup& lookup, Title& title) {
+  if (const Item* figure = s.find("figure")) {
+    title.figure = lookup.figure(*figure).value_or(SkyFigure());
+    // The name of a constellation is that of a place, too: the middle of its figure.
+    if (!title.figure.empty() && !s.find("place")) title.place = lookup.place(*figure);
+  }
+  if (const Item* place = s.find("place")) title.place = read_sky_place(*place, lookup);
+  if (title.place)
+    for (const char* key : {"azimuth_deg", "elevation_deg"})
+      if (const Item* fixed = s.find(key))
+        fixed->fail(
+            "is for titles of the dome; this one stands where its place on the sky is seen");
+}
+
+Title read_title(const Item& item, const TitleSpan& span, const Show& show, Lookup& lookup) {
   const Section s(item, {"titles"});
   Title title;
   read_words(s, show, title);
   read_title_times(s, span, show, title);
+  read_title_place(s, lookup, title);
   title.azimuth = s.angle("azimuth_deg");
   // The audience of a dome looks there without leaning back.
   const bool lies = s.find("elevation_deg") || has_zenith(show.projection);
@@ -71,7 +88,8 @@ Title read_title(const Item& item, const TitleSpan& span, const Show& show) {
 
 }  // namespace
 
-std::vector<Title> read_titles(const Section& section, const TitleSpan& span, const Show& show) {
+std::vector<Title> read_titles(const Section& section, const TitleSpan& span, const Show& show,
+                               Lookup& lookup) {
   std::vector<Title> titles;
   const Item* list = section.find("titles");
   const auto items = list ? read_list(*list) : std::nullopt;
@@ -83,7 +101,7 @@ std::vector<Title> read_titles(const Section& section, const TitleSpan& span, co
     return titles;
   }
   titles.reserve(items->size());
-  for (const Item& item : *items) titles.push_back(read_title(item, span, show));
+  for (const Item& item : *items) titles.push_back(read_title(item, span, show, lookup));
   return titles;
 }
 

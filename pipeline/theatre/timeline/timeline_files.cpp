@@ -219,7 +219,8 @@ std::string marker_list(const Show& show) {
 std::string subtitles(const Show& show, SubtitleKind kind) {
   std::vector<const Title*> titles;
   const auto add = [&](const std::vector<Title>& some) {
-    for (const Title& title : some) titles.push_back(&title);
+    for (const Title& title : some)
+      if (!title.text.empty()) titles.push_back(&title);
   };
   add(show.titles);
   for (const Segment& segment : show.timeline) add(segment.titles);

@@ -31,6 +31,11 @@ class ShowFile : public TestFolder {
           "name,ra_deg,dec_deg\n"
           "Orion,85.39,5.69\nM 31,10.6847,41.2687\nAndromeda Galaxy,10.6847,41.2687\n"
           "galactic centre,266.405,-28.9362\nVega,1,2\n");
+    write("assets/figures.csv",
+          "constellation,abbreviation,line,ra_deg,dec_deg\n"
+          "Orion,Ori,1,88.793,7.407\nOrion,Ori,1,81.283,6.350\nOrion,Ori,2,78.634,-8.202\n"
+          "Orion,Ori,2,83.002,-0.299\nOrion,Ori,2,81.283,6.350\nLyra,Lyr,1,279.235,38.784\n"
+          "Lyra,Lyr,1,281.085,39.670\n");
     setenv("DOMEFALL_ASSETS", (folder_ / "assets").c_str(), 1);
   }
   ~ShowFile() override { unsetenv("DOMEFALL_ASSETS"); }

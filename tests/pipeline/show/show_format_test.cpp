@@ -32,9 +32,10 @@ using ShowFormat = ShowFile;
 TEST_F(ShowFormat, EveryExampleIsAShow) {
   write("art/summer_sky.exr", "");
   // The recipes name more places than the stand-in has.
-  std::filesystem::copy_file(source_file("shows/assets/sky_places.csv"),
-                             folder_ / "assets/sky_places.csv",
-                             std::filesystem::copy_options::overwrite_existing);
+  for (const char* table : {"sky_places.csv", "figures.csv"})
+    std::filesystem::copy_file(source_file(std::string("shows/assets/") + table),
+                               folder_ / "assets" / table,
+                               std::filesystem::copy_options::overwrite_existing);
   for (const char* name : {"show-format.md", "settings.md"}) {
     const auto all = examples(page(name));
     ASSERT_GE(all.size(), 8u);

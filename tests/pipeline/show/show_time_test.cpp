@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/show/observer_track.h"
 #include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
@@ -56,6 +57,46 @@ TEST_F(ShowTimes, AreClockTimesOrMarkersWhereverATimeIsGiven) {
   };
   EXPECT_NEAR(roll(34), 10, 1e-9) << "the marker is a time of the show";
   EXPECT_NEAR(roll(35), 20, 1e-9) << "clock times count from the segment's beginning, 28 s";
+}
+
+TEST_F(ShowTimes, OfEventsFollowFromTheTimeline) {
+  const Show show = read(
+      "black_hole: {mass_solar: 4e6}\n"
+      "markers: {closest: periastron, far: {r: 60}, start: 0:01, horizon: {r: 2}}\n"
+      "titles: [{text: here, at_s: closest, duration_s: far}]\n"
+      "timeline:\n"
+      "  - {duration_s: 3, trajectory: {type: static, r: 30}}\n"
+      "  - {duration_s: 20, trajectory: {type: parabolic, periastron: 6, from_r: 40, to_r: 60, "
+      "to_leg: outward}}\n"
+      "  - {duration_s: 10, dissolve_s: 1, trajectory: {type: infall, from_r: 9, to_r: 1}}\n");
+  const auto r_at = [&](int segment, double time) {
+    return observer_at(show, segment, part_at(show, segment, time)).r;
+  };
+  ASSERT_EQ(show.markers.size(), 4U);
+  EXPECT_NEAR(r_at(1, show.markers[0].at_s), 6, 1e-9);
+  EXPECT_NEAR(show.markers[1].at_s, 23, 1e-9);
+  EXPECT_EQ(show.markers[2].at_s, 1);
+  EXPECT_NEAR(r_at(2, show.markers[3].at_s), 2, 1e-9);
+  EXPECT_GT(show.markers[3].at_s, 22);
+  EXPECT_EQ(show.titles[0].begin_s, show.markers[0].at_s);
+  EXPECT_EQ(show.titles[0].end_s, show.markers[1].at_s);
+}
+
+TEST_F(ShowTimes, OfEventsThatCannotBeAreTold) {
+  const std::string
+      hole = "black_hole: {mass_solar: 4e6}\n",
+      rest = "timeline: [{duration_s: 2, trajectory: {type: infall, from_r: 9, to_r: 3}}]\n";
+  EXPECT_NE(complaint(hole + "markers: {gone: {r: 2}}\n" + rest)
+                .find(":2:17: markers.gone happens nowhere in the show, which is never at r = 2"),
+            std::string::npos);
+  EXPECT_NE(complaint(hole + "markers: {near: periastron}\n" + rest).find("never falls and rises"),
+            std::string::npos);
+  EXPECT_NE(complaint(hole + "markers: {near: {R: 2}}\n" + rest).find("unknown key"),
+            std::string::npos);
+  EXPECT_NE(complaint(hole + "markers: {gone: {r: 5}}\n"
+                             "timeline: [{duration_s: gone, trajectory: {type: static, r: 9}}]\n")
+                .find("is an event, 'gone', whose time follows from the timeline"),
+            std::string::npos);
 }
 
 TEST_F(ShowTimes, MistakesInThemAreTold) {

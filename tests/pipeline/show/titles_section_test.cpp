@@ -28,6 +28,39 @@ TEST_F(Titles, LastAsLongAsTheShowAtTheFrontUnlessTheySayOtherwise) {
             0);
 }
 
+TEST_F(Titles, BelongToPlacesAndFiguresOfTheSky) {
+  const Show show = with(
+      "titles:\n"
+      "  - {text: a star, place: Vega}\n"
+      "  - {figure: orion}\n"
+      "  - {text: The hunter, figure: Ori, place: {ra_deg: 90, dec_deg: 0}}\n");
+  ASSERT_EQ(show.titles.size(), 3U);
+  expect_near(show.titles[0].place->v, place(279.235, 38.784).v, 1e-8);
+  EXPECT_TRUE(show.titles[0].figure.empty());
+  EXPECT_EQ(show.titles[1].text, "");
+  ASSERT_EQ(show.titles[1].figure.size(), 2U);
+  EXPECT_EQ(show.titles[1].figure[1].size(), 3U);
+  expect_near(show.titles[1].figure[1][0].v, place(78.634, -8.202).v);
+  expect_near(show.titles[1].place->v, place(85.39, 5.69).v);
+  expect_near(show.titles[2].place->v, place(90, 0).v);
+  EXPECT_EQ(show.titles[2].figure.size(), 2U);
+}
+
+TEST_F(TitleMistakes, OfPlacesAndFiguresAreTold) {
+  const std::string rest = "}]\ntimeline: [{duration_s: 2}]\n";
+  EXPECT_NE(
+      complaint("titles: [{figure: Oryon" + rest)
+          .find("1:19: titles[1].figure names 'Oryon', which is no constellation; did you mean"),
+      std::string::npos);
+  EXPECT_NE(complaint("titles: [{text: a, place: Wega" + rest).find("titles[1].place names 'Wega'"),
+            std::string::npos);
+  EXPECT_NE(complaint("titles: [{text: a, place: Vega, azimuth_deg: 4" + rest)
+                .find("titles[1].azimuth_deg is for titles of the dome"),
+            std::string::npos);
+  EXPECT_NE(complaint("titles: [{place: Vega" + rest).find("titles[1].text is missing"),
+            std::string::npos);
+}
+
 TEST_F(Titles, HaveTheTimesOfShowsInSegmentsToo) {
   const Show show = read(
       "markers: {here: 4, there: 0:07}\n"

@@ -360,7 +360,7 @@ TEST(TitleGround, CountsInMattes) {
   draw_titles(show, state, frame);
   const auto seen = seen_titles(show, state);
   ASSERT_EQ(seen.size(), 1u);
-  const std::vector<float> covered = covered_by(seen[0], state);
+  const std::vector<float> covered = covered_by(show, seen[0], state);
   int touched = 0;
   for (std::size_t k = 0; k < covered.size(); ++k) {
     ASSERT_NEAR(frame.pixels[3 * k], 1 - covered[k], 1e-6) << k;
