@@ -103,12 +103,13 @@ class UsdCamera {
     for (const UsdPrim* prim = &prim_; prim; prim = prim->parent) {
       const auto order = prim->attributes.find("xformOpOrder");
       if (order == prim->attributes.end()) continue;
-      const std::vector<std::string>& names = order->second.fixed.texts;
-      for (auto name = names.rbegin(); name != names.rend(); ++name) {
+      const std::vector<std::string>& outermost_first = order->second.fixed.texts;
+      const std::vector<std::string> names(outermost_first.rbegin(), outermost_first.rend());
+      for (const std::string& name : names) {
         constexpr std::string_view kInvert = "!invert!", kOperation = "xformOp:";
-        if (*name == "!resetXformStack!") return;
-        const bool inverse = name->starts_with(kInvert);
-        const std::string attribute = inverse ? name->substr(kInvert.size()) : *name;
+        if (name == "!resetXformStack!") return;
+        const bool inverse = name.starts_with(kInvert);
+        const std::string attribute = inverse ? name.substr(kInvert.size()) : name;
         const auto found = prim->attributes.find(attribute);
         if (!attribute.starts_with(kOperation) || found == prim->attributes.end())
           fail(*prim, "lacks the operation " + attribute + " of its xformOpOrder");

@@ -54,9 +54,9 @@ std::optional<Disc> read_disc(const Section& show, const Show& to);
 
 std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& lookup);
 // Reports a body that is so large that it reaches the hole, and one with more light than the
-// renderer's floats hold, at `light` or, if its own size is too large, at `radius`.
+// renderer's floats hold, at `light` or, if it has a size of its own, at `own_size`.
 void check_body(const Body& body, const Spacetime& spacetime, const Item& light,
-                const Item* radius);
+                const Item* own_size);
 
 // A TitleSpan is the part of the show that titles belong to, in show seconds.  Their times count
 // from its beginning, and none lasts beyond its end.

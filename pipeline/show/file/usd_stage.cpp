@@ -82,7 +82,7 @@ class UsdWords {
     pass_blanks();
     if (at_ >= text_.size()) return {Token::Kind::kEnd, "the end", 0, line_};
     const std::string_view rest = text_.substr(at_);
-    for (const std::string_view mark : {"\"\"\"", "'''", "\"", "'"})
+    for (const std::string_view mark : {R"(""")", "'''", R"(")", "'"})
       if (rest.starts_with(mark)) return between(mark, mark, true);
     for (const std::string_view mark : {"@@@", "@"})
       if (rest.starts_with(mark)) return between(mark, mark, false);
@@ -90,7 +90,8 @@ class UsdWords {
     double number = 0;
     const char* begin = rest.data();
     const auto [end, error] = std::from_chars(begin, begin + rest.size(), number);
-    const bool is_number = std::string_view("+-.0123456789").find(rest[0]) != rest.npos;
+    const bool is_number =
+        std::string_view("+-.0123456789").find(rest[0]) != std::string_view::npos;
     if (is_number && error == std::errc()) {
       at_ += static_cast<std::size_t>(end - begin);
       return {Token::Kind::kNumber, std::string(begin, end), number, line_};
