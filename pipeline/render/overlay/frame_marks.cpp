@@ -54,6 +54,14 @@ class Marks {
         false, width_ * width_part, projection_, coverage_);
   }
 
+  // Adds the border of the field in front that reaches so far to either side, in degrees.
+  void field(double aside, double lowest, double highest) {
+    way({-aside, lowest}, {aside, lowest});
+    way({aside, lowest}, {aside, highest});
+    way({aside, highest}, {-aside, highest});
+    way({-aside, highest}, {-aside, lowest});
+  }
+
   // Adds the circle about the middle of a dome's image at this angle, or at this distance in pixels
   // from its edge.
   void circle(double angle) { curve(ViewCircle{V3d(0, 0, 1), std::cos(angle), std::sin(angle)}); }
@@ -91,6 +99,8 @@ void add_grid(Marks& marks) {
 }
 
 void add_safe_area(Marks& marks) {
+  if (has_zenith(marks.projection()))
+    marks.field(kSafeAzimuthDeg, kSafeElevationDeg, kSafeHighestDeg);
   if (marks.dome())
     return marks.circle(farthest_angle(marks.projection()) - kSafeElevationDeg * kDegrees2Radians);
   marks.box(kSafeAction);
@@ -99,11 +109,7 @@ void add_safe_area(Marks& marks) {
 
 void add_sweet_spot(Marks& marks) {
   if (!has_zenith(marks.projection())) return marks.box(kMiddleThird);
-  const double a = kSweetAzimuthDeg, low = kSweetLowestDeg, high = kSweetHighestDeg;
-  marks.way({-a, low}, {a, low});
-  marks.way({a, low}, {a, high});
-  marks.way({a, high}, {-a, high});
-  marks.way({-a, high}, {-a, low});
+  marks.field(kSweetAzimuthDeg, kSweetLowestDeg, kSweetHighestDeg);
 }
 
 // The colours of overlays (Rec.709), which are distinct also for most people who see fewer colours.

@@ -10,10 +10,12 @@ namespace domefall {
 // These values place lines for the eye, and nothing else in a frame depends on them.
 
 // Up to this angle from its rim, a dome's picture is often hidden by seats and by the light of
-// doors.  No standard gives the angle, and 10 degrees are our choice, as in docs/overlays.md for
-// titles.  A larger angle would give up more of the picture, and a smaller one would call safe what
+// doors.  IMERSA's safe area ends there, too, and docs/overlays.md has the same angle for titles.  A larger angle would give up more of the picture, and a smaller one would call safe what
 // some seats do not see.
 inline constexpr double kSafeElevationDeg = 10;
+// IMERSA calls safe what lies up to 50 degrees to either side of the front and from 10 to 60
+// degrees high.
+inline constexpr double kSafeAzimuthDeg = 50, kSafeHighestDeg = 60;
 // Here the audience of a dome looks without turning or leaning back.  The bounds are our choice.
 // Productions for domes name 35 to 45 degrees above the front of the rim as the place to which an
 // audience looks, and the bounds leave 15 to 20 degrees below and above it.  45 degrees to either

@@ -50,6 +50,12 @@ TEST(FrameMarks, OfADomeLieAtTheirElevations) {
     EXPECT_GT(light_at(sweet, dome, on_dome(azimuth, kSweetHighestDeg)), 0.2) << azimuth;
     EXPECT_EQ(light_at(sweet, dome, on_dome(azimuth + 180, 40)), 0) << azimuth;
   }
+  for (const double elevation : {20., 35., 50.})
+    for (const double side : {-kSafeAzimuthDeg, kSafeAzimuthDeg})
+      EXPECT_GT(light_at(safe, dome, on_dome(side, elevation)), 0.2) << elevation;
+  for (const double azimuth : {-45., 0., 45.})
+    EXPECT_GT(light_at(safe, dome, on_dome(azimuth, kSafeHighestDeg)), 0.2) << azimuth;
+  EXPECT_EQ(light_at(safe, dome, on_dome(180, 60)), 0);
   for (int y = 0; y < 256; ++y)
     for (const int x : {0, 255})
       if (!is_inside(dome, {x + 1.0, y + 1.0})) {
