@@ -6,7 +6,10 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/base/errors.h"
@@ -173,8 +176,8 @@ std::array<double, 8> settled(std::array<double, 8> xy) {
   return xy;
 }
 
-// Sets the curve by the light of grey codes, white being 1.  Returns false if the curve is neither
-// that of sRGB nor a power.
+// Sets the curve by the light of grey codes, white being 1.  Returns false if the curve is none of
+// sRGB, PQ, HLG and a power.
 bool take_curve(const std::vector<double>& greys, DisplayColour& colour) {
   const auto last = static_cast<double>(greys.size() - 1);
   const auto fits = [&](const auto& curve) {
@@ -189,6 +192,29 @@ bool take_curve(const std::vector<double>& greys, DisplayColour& colour) {
     colour.curve = DisplayColour::Curve::kSrgb;
     return true;
   }
+  // White has 10000 cd/m^2, of which a dome shows the dark end, so that each grey must fit.
+  const auto is_pq = [&] {
+    constexpr double kWhite = 10000, kNear = 2e-3, kLeast = 1e-8;
+    for (std::size_t k = 0; k < greys.size(); ++k) {
+      const double light = pq_light(static_cast<double>(k) / last) / kWhite;
+      if (!(std::abs(greys[k] - light) <= kNear * light + kLeast)) return false;
+    }
+    return true;
+  };
+  if (is_pq()) {
+    colour.curve = DisplayColour::Curve::kPq;
+    return true;
+  }
+  // The inverse of BT.2100's OETF, and the system gamma of 1000 cd/m^2.
+  const auto hlg = [](double code) {
+    constexpr double kA = 0.17883277, kB = 1 - 4 * kA, kC = 0.55991073, kGamma = 1.2;
+    const double scene = code <= 0.5 ? code * code / 3 : (std::exp((code - kC) / kA) + kB) / 12;
+    return std::pow(scene, kGamma);
+  };
+  if (fits(hlg)) {
+    colour.curve = DisplayColour::Curve::kHlg;
+    return true;
+  }
   constexpr double kSteps = 1000;
   const std::size_t middle = greys.size() / 2;
   const double gamma = std::log(greys[middle]) / std::log(static_cast<double>(middle) / last);
@@ -197,12 +223,45 @@ bool take_curve(const std::vector<double>& greys, DisplayColour& colour) {
   return fits([&](double code) { return std::pow(code, colour.gamma); });
 }
 
+// Says at which line a configuration needs a newer OpenColorIO than this, if that is why it cannot
+// be read, or else nothing.  The library's own message names no line.
+std::string needs_newer(const std::string& file, const std::string& why) {
+  constexpr std::string_view kProfile = "ocio_profile_version:", kStyle = "transform style '";
+  std::string wanted;  // the built-in transform that the library does not know
+  if (const auto at = why.find(kStyle); at != std::string::npos) {
+    wanted = why.substr(at + kStyle.size());
+    wanted.resize(std::min(wanted.size(), wanted.find('\'')));
+  }
+  const std::string here = ocio::GetVersion();
+  std::ifstream in(file);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    unsigned major = 0, minor = 0;
+    if (line.starts_with(kProfile) &&
+        std::sscanf(line.c_str() + kProfile.size(), "%u.%u", &major, &minor) >= 1 &&  // NOLINT
+        ((major << 24U) | (minor << 16U)) > static_cast<unsigned>(ocio::GetVersionHex()))
+      return fmt::format(
+          "{}: line {}: a configuration of version {}.{} needs OpenColorIO {}.{} or newer, and "
+          "this is "
+          "{}",
+          file, number, major, minor, major, minor, here);
+    if (wanted.empty() || line.find(wanted) == std::string::npos) continue;
+    return fmt::format("{}: line {}: OpenColorIO {} has no built-in transform '{}'; {}", file,
+                       number, here, wanted,
+                       wanted.ends_with("_2.0") ? "those of ACES 2 need 2.4 or newer"
+                                                : "it is misspelt or needs a newer one");
+  }
+  return {};
+}
+
 }  // namespace
 
 ocio::ConstConfigRcPtr read_config(const std::string& file) {
   try {
     return ocio::Config::CreateFromFile(file.c_str());
   } catch (const ocio::Exception& error) {
+    if (const std::string newer = needs_newer(file, error.what()); !newer.empty())
+      throw InputError(newer);
     throw InputError(file + ": not an OpenColorIO configuration that can be used: " + error.what());
   }
 }
@@ -260,7 +319,6 @@ std::optional<DisplayColour> display_colour(const ocio::Config& config, const st
   if (!space || space->isData() || space->getReferenceSpaceType() != ocio::REFERENCE_SPACE_DISPLAY)
     return std::nullopt;
   const auto cpu = to_light(config, *space);
-  if (!is_sum_of_channels(*cpu)) return std::nullopt;
   std::vector<Pixel> corners{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, 0}};
   send_through(*cpu, corners);
   const Pixel black = corners.back();
@@ -281,7 +339,10 @@ std::optional<DisplayColour> display_colour(const ocio::Config& config, const st
   greys.reserve(kGreys);
   for (const Pixel& xyz : ramp)
     greys.push_back((xyz[1] - black[1]) / static_cast<double>(corners[3][1] - black[1]));
-  return take_curve(greys, colour) ? std::optional(colour) : std::nullopt;
+  if (!take_curve(greys, colour)) return std::nullopt;
+  // By the system gamma of HLG each channel's light depends on the others.
+  if (colour.curve != DisplayColour::Curve::kHlg && !is_sum_of_channels(*cpu)) return std::nullopt;
+  return colour;
 }
 
 std::vector<DisplayViews> displays_of(const std::filesystem::path& config) {

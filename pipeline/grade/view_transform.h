@@ -67,8 +67,8 @@ DomeLight::Curves display_curves(const OCIO_NAMESPACE::Config& config, const std
                                  const std::string& view, const std::string& file);
 
 // Returns what the codes of that view mean.  Returns nothing if the view's space is not one of a
-// display, if its light is not the sum of what the three channels give by one curve, or if this
-// curve is neither a power nor that of sRGB to a thousandth of white.  Primaries within 3e-4 of a
+// display, if its light is not the sum of what the three channels give by one curve (HLG aside), or
+// if this curve is none of a power, sRGB's and HLG's to a thousandth of white, and PQ's to 0.2 %.  Primaries within 3e-4 of a
 // standard's are taken to be the standard's.
 std::optional<DisplayColour> display_colour(const OCIO_NAMESPACE::Config& config,
                                             const std::string& display, const std::string& view);

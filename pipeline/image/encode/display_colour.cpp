@@ -2,9 +2,11 @@
 
 #include <lcms2.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace domefall {
 namespace {
@@ -25,6 +27,10 @@ std::string png_gamma(const DisplayColour& colour) {
   return png_part(colour.curve == DisplayColour::Curve::kSrgb ? kOfSrgb : 1 / colour.gamma);
 }
 
+// These are the primaries of DCI-P3 after Bradford's adaptation of its white to D65.
+constexpr std::array<double, 8> kAdaptedDci{0.6807, 0.3189, 0.2812, 0.6742,
+                                            0.1488, 0.0577, 0.3127, 0.3290};
+
 void require_lcms(bool done) {
   if (!done) throw std::runtime_error("Little CMS could not make a profile of the display");
 }
@@ -33,12 +39,46 @@ cmsCIExyY place_of(const DisplayColour& colour, std::size_t k) {
   return {colour.xy[2 * k], colour.xy[2 * k + 1], 1};
 }
 
+bool is_hdr(const DisplayColour& colour) {
+  return colour.curve == DisplayColour::Curve::kPq || colour.curve == DisplayColour::Curve::kHlg;
+}
+
+// The last two numbers say RGB itself and the full range.
+std::string png_code_points(const DisplayColour& colour) {
+  const int transfer = colour.curve == DisplayColour::Curve::kPq ? kH273Pq : kH273Hlg;
+  return {static_cast<char>(h273_primaries(colour.xy)), static_cast<char>(transfer), 0, 1};
+}
+
 }  // namespace
+
+double pq_light(double code) {
+  constexpr double kM1 = 2610. / 16384, kM2 = 2523. / 32, kC1 = 3424. / 4096, kC2 = 2413. / 128,
+                   kC3 = 2392. / 128, kMost = 10000;
+  const double power = std::pow(code, 1 / kM2);
+  return kMost * std::pow(std::max(power - kC1, 0.0) / (kC2 - kC3 * power), 1 / kM1);
+}
+
+int h273_primaries(const std::array<double, 8>& xy) {
+  const std::array<std::pair<int, std::array<double, 8>>, 5> known{{{1, kRec709Places},
+                                                                    {9, kRec2020Places},
+                                                                    {11, kDciP3Places},
+                                                                    {11, kAdaptedDci},
+                                                                    {12, kP3D65Places}}};
+  constexpr double kNear = 1e-3;
+  for (const auto& [code, places] : known)
+    if (std::equal(xy.begin(), xy.end(), places.begin(),
+                   [](double a, double b) { return std::abs(a - b) <= kNear; }))
+      return code;
+  return 2;
+}
 
 std::vector<PngChunk> png_colour_chunks(const DisplayColour& colour) {
   std::vector<PngChunk> chunks;
   if (is_srgb(colour)) chunks.push_back({"sRGB", std::string(1, '\0')});  // intent: perceptual
-  chunks.push_back({"gAMA", png_gamma(colour)});
+  if (is_hdr(colour))
+    chunks.push_back({"cICP", png_code_points(colour)});
+  else
+    chunks.push_back({"gAMA", png_gamma(colour)});
   std::string places;
   for (const std::size_t k : {6U, 7U, 0U, 1U, 2U, 3U, 4U, 5U}) places += png_part(colour.xy[k]);
   chunks.push_back({"cHRM", places});
@@ -46,6 +86,7 @@ std::vector<PngChunk> png_colour_chunks(const DisplayColour& colour) {
 }
 
 std::string icc_profile(const DisplayColour& colour) {
+  if (is_hdr(colour)) return {};
   using Curve = std::unique_ptr<cmsToneCurve, void (*)(cmsToneCurve*)>;
   constexpr double kSrgb[] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
   constexpr int kPowerType = 1, kSrgbType = 4;

@@ -10,7 +10,9 @@
 namespace domefall {
 
 struct DisplayColour {
-  enum class Curve { kPower, kSrgb };  // kSrgb: IEC 61966-2-1, with its straight part near black
+  // kSrgb: IEC 61966-2-1, with its straight part near black.  kPq: SMPTE ST 2084.  kHlg: ITU-R
+  // BT.2100's hybrid log-gamma, for a display of 1000 cd/m^2.
+  enum class Curve { kPower, kSrgb, kPq, kHlg };
   Curve curve = Curve::kSrgb;
   double gamma = 2.2;          // of kPower
   std::array<double, 8> xy{};  // CIE x, y of red, green, blue and white
@@ -29,13 +31,22 @@ inline constexpr std::array<double, 8> kRec709Places{0.64, 0.33, 0.3,    0.6,
     kAp1Places{0.713, 0.293, 0.165, 0.83, 0.128, 0.044, 0.32168, 0.33767},
     kAp0Places{0.7347, 0.2653, 0, 1, 0.0001, -0.077, 0.32168, 0.33767};
 
-// Returns gAMA and cHRM, and also sRGB if the colour is that.  There is no cICP, which could say no
-// more about these colours.  Programs from before PNG's third edition (pngcheck 3) would take it
-// for damage.
+// Returns the light in cd/m^2 of a code from 0 to 1, by SMPTE ST 2084.
+double pq_light(double code);
+
+// Returns the number of primaries in ITU-T H.273, to 0.001 in x and y, or 2, which is unspecified.
+// Those of DCI-P3 also match with a white that was adapted to D65.
+int h273_primaries(const std::array<double, 8>& xy);
+
+inline constexpr int kH273Pq = 16, kH273Hlg = 18;  // transfer characteristics in ITU-T H.273
+
+// Returns gAMA and cHRM, and also sRGB if the colour is that.  For PQ and HLG, which no gAMA can
+// say, it returns cICP and cHRM.  Other colours have no cICP, which could say no more about them.
+// Programs from before PNG's third edition (pngcheck 3) would take it for damage.
 std::vector<PngChunk> png_colour_chunks(const DisplayColour& colour);
 
 // Returns an ICC profile of a matrix and a curve, for TIFF and JPEG.  The same colour has the same
-// bytes.
+// bytes.  There is none for PQ and HLG, whose light has no relation to a paper's white.
 std::string icc_profile(const DisplayColour& colour);
 
 }  // namespace domefall

@@ -27,9 +27,17 @@ const char* kind_word(const GradedFormat& format) {
 }
 
 std::string transfer_of(const DisplayColour& colour) {
-  return colour.curve == DisplayColour::Curve::kSrgb
-             ? "sRGB (IEC 61966-2-1)"
-             : fmt::format("power {}", short_number(colour.gamma));
+  switch (colour.curve) {
+    case DisplayColour::Curve::kSrgb:
+      return "sRGB (IEC 61966-2-1)";
+    case DisplayColour::Curve::kPq:
+      return "PQ (SMPTE ST 2084)";
+    case DisplayColour::Curve::kHlg:
+      return "HLG (ITU-R BT.2100)";
+    case DisplayColour::Curve::kPower:
+      break;
+  }
+  return fmt::format("power {}", short_number(colour.gamma));
 }
 
 Json colour_json(const Delivery& d) {

@@ -51,6 +51,10 @@ std::string colour_text(const Delivery& d) {
   };
   if (d.colour->curve == DisplayColour::Curve::kSrgb)
     text += "  Transfer       sRGB (IEC 61966-2-1)\n";
+  else if (d.colour->curve == DisplayColour::Curve::kPq)
+    text += "  Transfer       PQ (SMPTE ST 2084)\n";
+  else if (d.colour->curve == DisplayColour::Curve::kHlg)
+    text += "  Transfer       HLG (ITU-R BT.2100), for 1000 cd/m^2\n";
   else
     text += fmt::format("  Transfer       a power of {} (gamma)\n", short_number(d.colour->gamma));
   text += fmt::format("  Primaries      CIE x y: red {}, green {}, blue {}, white {}\n", place(0),

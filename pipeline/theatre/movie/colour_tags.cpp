@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -10,26 +9,10 @@
 namespace domefall {
 namespace {
 
-// These are the primaries of DCI-P3 after Bradford's adaptation of its white to D65.
-constexpr std::array<double, 8> kAdaptedDci{0.6807, 0.3189, 0.2812, 0.6742,
-                                            0.1488, 0.0577, 0.3127, 0.3290};
-
-int primaries_code(const std::array<double, 8>& xy) {
-  const std::array<std::pair<int, std::array<double, 8>>, 5> known{{{1, kRec709Places},
-                                                                    {9, kRec2020Places},
-                                                                    {11, kDciP3Places},
-                                                                    {11, kAdaptedDci},
-                                                                    {12, kP3D65Places}}};
-  constexpr double kNear = 1e-3;
-  for (const auto& [code, places] : known)
-    if (std::equal(xy.begin(), xy.end(), places.begin(),
-                   [](double a, double b) { return std::abs(a - b) <= kNear; }))
-      return code;
-  return 2;
-}
-
 int transfer_code(const DisplayColour& display) {
   if (display.curve == DisplayColour::Curve::kSrgb) return 13;
+  if (display.curve == DisplayColour::Curve::kPq) return kH273Pq;
+  if (display.curve == DisplayColour::Curve::kHlg) return kH273Hlg;
   // 1 is the camera's curve of BT.709, which stands for the display's of BT.1886.  ST 428-1 has the
   // power 2.6, but of X'Y'Z' and with another white.
   constexpr std::array<std::pair<double, int>, 3> kPowers{{{2.2, 4}, {2.4, 1}, {2.8, 5}}};
@@ -66,6 +49,10 @@ const char* name_of_transfer(int code) {
       return "iec61966-2-1 (sRGB)";
     case 14:
       return "bt2020-10 (BT.1886, gamma 2.4)";
+    case kH273Pq:
+      return "smpte2084 (PQ)";
+    case kH273Hlg:
+      return "arib-std-b67 (HLG)";
     default:
       return "unspecified";
   }
@@ -75,7 +62,7 @@ const char* name_of_transfer(int code) {
 
 ColourTags tags_of(const std::optional<DisplayColour>& display) {
   if (!display) return {};
-  ColourTags tags{primaries_code(display->xy), transfer_code(*display), 1};
+  ColourTags tags{h273_primaries(display->xy), transfer_code(*display), 1};
   if (tags.primaries != 9) return tags;
   tags.matrix = 9;
   if (tags.transfer == 1) tags.transfer = 14;  // the same curve under BT.2020's own number

@@ -105,8 +105,9 @@ TEST(DomeConfig, NoViewTakesAStepBackOverAllHalfGreys) {
     }
 }
 
-// The two curves of the configuration's comment, one upon the other.
-double tone(double y) {
+// The two curves of the configuration's comment, one upon the other, with the shoulder of a display
+// whose white is `most` times 100 cd/m^2.
+double tone(double y, double bend_of_shoulder = 12.5, double most = 1) {
   const double u = std::pow(y / 0.3, 2.4);
   // Where the straight part meets the power: offset/(gamma - 1), with the slope of both there.
   constexpr double kGamma = 2.3, kOffset = 0.25;
@@ -114,7 +115,8 @@ double tone(double y) {
   const double slope = std::pow((bend + kOffset) / (1 + kOffset), kGamma) / bend;
   const double g = u < bend * slope ? u / slope : (1 + kOffset) * std::pow(u, 1 / kGamma) - kOffset;
   const double v = 0.35315320814408807 * g;
-  return std::min(1.0, v < 0.3 ? v : 0.3 + std::log1p(12.5 * (v - 0.3)) / 12.5);
+  const double a = bend_of_shoulder;
+  return std::min(most, v < 0.3 ? v : 0.3 + std::log1p(a * (v - 0.3)) / a);
 }
 
 double half_of(double x) { return static_cast<float>(Imath::half(static_cast<float>(x))); }
@@ -124,6 +126,61 @@ TEST(DomeConfig, TheDomeViewHasTheCurvesThatItsCommentGives) {
     const double y = tone(half_of(x));
     for (const double code : graded(settings("Dome"), x))
       EXPECT_NEAR(std::pow(code, 2.2), y, 3e-3 * y + 1e-6) << x;
+  }
+}
+
+// SMPTE ST 2084, 5.3, as the standard writes it.
+double st2084(double cd_m2) {
+  const double m1 = 0.1593017578125, m2 = 78.84375, c1 = 0.8359375, c2 = 18.8515625, c3 = 18.6875;
+  const double y = std::pow(cd_m2 / 10000, m1);
+  return std::pow((c1 + c2 * y) / (1 + c3 * y), m2);
+}
+
+constexpr double kTenBitCode = 1. / 1023;
+constexpr const char* kPqDisplays[] = {"Rec.2100 PQ 1000 nits", "Rec.2100 PQ 500 nits",
+                                       "P3-D65 PQ 1000 nits"};
+
+TEST(HdrDisplays, PqCodesAreThoseOfSt2084) {
+  for (const char* display : kPqDisplays)
+    for (double x = std::ldexp(1.0, -12); x <= 100; x *= std::sqrt(2.0))
+      for (const double code : graded(settings("Un-tone-mapped", display), x))
+        EXPECT_NEAR(code, st2084(100 * half_of(x)), kTenBitCode) << display << ", " << x;
+}
+
+// ITU-R BT.2100, table 5: a grey's light is the scene's to the power 1.2.
+TEST(HdrDisplays, HlgCodesAreThoseOfBt2100) {
+  for (double x = std::ldexp(1.0, -10); x <= 10; x *= std::sqrt(2.0)) {
+    const double e = std::pow(half_of(x) / 10, 1 / 1.2);
+    const double wanted =
+        e <= 1. / 12 ? std::sqrt(3 * e) : 0.17883277 * std::log(12 * e - 0.28466892) + 0.55991073;
+    for (const double code : graded(settings("Un-tone-mapped", "Rec.2100 HLG 1000 nits"), x))
+      EXPECT_NEAR(code, wanted, kTenBitCode) << x;
+  }
+}
+
+// The middle of the scale is that of SDR, and the highlights have all the light of the display.
+TEST(HdrDisplays, TheDomeViewReachesTheirWhite) {
+  struct Known {
+    const char* display;
+    double bend, most;
+  };
+  for (const Known& known : {Known{kPqDisplays[0], 0.5871, 10}, Known{kPqDisplays[1], 1.395, 5},
+                             Known{kPqDisplays[2], 0.5871, 10}})
+    for (double x = std::ldexp(1.0, -6); x <= 512; x *= std::sqrt(2.0)) {
+      const double light = 100 * tone(half_of(x), known.bend, known.most);
+      for (const double code : graded(settings("Dome", known.display), x))
+        EXPECT_NEAR(code, st2084(light), kTenBitCode) << known.display << ", " << x;
+    }
+  for (const double code : graded(settings("Dome", "Rec.2100 HLG 1000 nits"), 512))
+    EXPECT_NEAR(code, 1, kTenBitCode);
+}
+
+// At the largest halves ACES 1.1 comes to within 5 codes of 10 bits of its 1000 cd/m^2.
+TEST(HdrDisplays, BlackIsCodeZeroAndAcesReachesItsWhite) {
+  for (const char* display : {kPqDisplays[0], kPqDisplays[2]}) {
+    EXPECT_EQ(graded(settings("Dome", display), 0), (Triple{0, 0, 0})) << display;
+    for (const double code : graded(settings("ACES HDR", display), 60000))
+      EXPECT_NEAR(code, st2084(1000), 5 * kTenBitCode) << display;
   }
 }
 
@@ -261,6 +318,10 @@ TEST(DisplayColours, AreThoseThatTheDisplaysAreSetTo) {
            Known{"Dome G2.6 P3-D65", {DisplayColour::Curve::kPower, 2.6, kP3D65Places}},
            Known{"Dome G2.4 Rec.2020", {DisplayColour::Curve::kPower, 2.4, kRec2020Places}},
            Known{"sRGB - Display", {DisplayColour::Curve::kSrgb, 2.2, kRec709Places}},
+           Known{"Rec.2100 PQ 1000 nits", {DisplayColour::Curve::kPq, 2.2, kRec2020Places}},
+           Known{"Rec.2100 PQ 500 nits", {DisplayColour::Curve::kPq, 2.2, kRec2020Places}},
+           Known{"Rec.2100 HLG 1000 nits", {DisplayColour::Curve::kHlg, 2.2, kRec2020Places}},
+           Known{"P3-D65 PQ 1000 nits", {DisplayColour::Curve::kPq, 2.2, kP3D65Places}},
        }) {
     const auto colour = Grader(settings("Dome", known.display)).colour();
     ASSERT_TRUE(colour) << known.display;
@@ -373,6 +434,22 @@ TEST_F(GradeConfigs, AreWhatOpenColorIOTakes) {
     EXPECT_TRUE(message_of([&] { Grader grader(s); }).starts_with(s.config.string() + ": "))
         << text;
   }
+}
+
+// Of a version that no library has yet, and of a transform that only newer ones have.
+TEST_F(GradeConfigs, OfNewerLibrariesSayWhichVersionAndWhere) {
+  GradeSettings s;
+  s.config = folder_ / "config.ocio";
+  std::string text = contents(kConfig);
+  put(s.config, "\n" + std::string(text).replace(text.find("2.1"), 3, "2.99"));
+  EXPECT_THAT(message_of([&] { Grader grader(s); }),
+              testing::HasSubstr("config.ocio: line 2: a configuration of version 2.99 needs "
+                                 "OpenColorIO 2.99 or newer, and this is "));
+  const std::string known = "SDR-VIDEO_1.0";
+  put(s.config, text.replace(text.find(known), known.size(), "SDR-12345nit_2.0"));
+  EXPECT_THAT(message_of([&] { Grader grader(s); }),
+              testing::AllOf(testing::ContainsRegex("config.ocio: line [0-9]+: OpenColorIO "),
+                             testing::HasSubstr("those of ACES 2 need 2.4 or newer")));
 }
 
 }  // namespace

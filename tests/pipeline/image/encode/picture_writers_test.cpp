@@ -187,6 +187,17 @@ TEST(DisplayColourChunks, SaySrgbOfSrgbAlone) {
   EXPECT_EQ(chunks["sRGB"], std::string(1, '\0'));
 }
 
+// The code points of ITU-T H.273, RGB and full range, which no gAMA contradicts.
+TEST(DisplayColourChunks, SayPqAndHlgByCodePoints) {
+  auto pq = chunks_of({Curve::kPq, 2.2, kRec2020Places});
+  EXPECT_EQ(pq["cICP"], std::string("\x09\x10\x00\x01", 4));
+  EXPECT_FALSE(pq.contains("gAMA"));
+  EXPECT_EQ(chunks_of({Curve::kPq, 2.2, kP3D65Places})["cICP"], std::string("\x0c\x10\x00\x01", 4));
+  EXPECT_EQ(chunks_of({Curve::kHlg, 2.2, kRec2020Places})["cICP"],
+            std::string("\x09\x12\x00\x01", 4));
+  EXPECT_FALSE(chunks_of(kDome22).contains("cICP"));
+}
+
 // As another program converts codes by it: to the light of the display.
 TEST(IccProfiles, TakeCodesToTheLightOfTheDisplay) {
   for (const DisplayColour& colour : {kDome22, kCinema, kScreen}) {
