@@ -60,8 +60,10 @@ Arguments ffmpeg_arguments(const MoviePlan& plan, const TextFile& subtitles,
   append_to(all, {"-map_chapters",
                   chapters ? fmt::to_string(1 + plan.sound.files.size()) : std::string("-1")});
   append_to(all, sound_options(plan.sound, plan.first, plan.count, plan.rate));
-  append_to(all, video_options(plan.preset, plan.frames, plan.rate, plan.tags,
-                               subtitles ? subtitles->path() : std::string()));
+  Arguments video = video_options(plan.preset, plan.frames, plan.rate, plan.tags,
+                                  subtitles ? subtitles->path() : std::string());
+  if (plan.levels) add_light_levels(video, *plan.levels);
+  append_to(all, video);
   if (!plan.sound.files.empty()) append_to(all, plan.preset.sound);
   append_to(all, output);
   return all;

@@ -23,8 +23,9 @@ struct MoviePlan {
   int first = 0, count = 0;  // of the show's frames
   ColourTags tags;
   Sound sound;
-  std::string subtitles;   // the text of burn_in.h, or empty
-  std::string chapters{};  // the text of chapters.h, or empty
+  std::string subtitles;                // the text of burn_in.h, or empty
+  std::string chapters{};               // the text of chapters.h, or empty
+  std::optional<LightLevels> levels{};  // of HDR frames that were there to be measured
 };
 
 // Makes a movie of one small black frame and the first sound, as the whole would be made, and

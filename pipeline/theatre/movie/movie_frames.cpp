@@ -37,6 +37,31 @@ void say_done(const MovieRun& run, const Progress& progress) {
                   text_of(run.plan.rate), progress.seconds(), run.out.string()));
 }
 
+// Calls step(frame) for the finished frames in their order, and unpacks the next ones meanwhile.
+template <class Step>
+void for_each_frame(const MovieRun& run, const GradedFrames& finished, const Step& step) {
+  std::deque<std::future<GradedFrame>> ahead;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    for (; next < run.frames.size() && ahead.size() < frames_ahead(run); ++next)
+      ahead.push_back(std::async(std::launch::async, [&finished, number = run.frames[next]] {
+        return finished.read(number);
+      }));
+    const GradedFrame frame = ahead.front().get();
+    ahead.pop_front();
+    step(frame);
+  }
+}
+
+// The encoder wants them before the first frame, so that all frames are read once more for them.
+LightLevels measured_levels(const MovieRun& run, const GradedFrames& finished) {
+  LightLevels levels;
+  for_each_frame(run, finished, [&](const GradedFrame& frame) { take_levels(frame, levels); });
+  say(fmt::format("light levels: MaxCLL {:.1f}, MaxFALL {:.1f} cd/m^2", levels.content,
+                  levels.frame_average));
+  return levels;
+}
+
 }  // namespace
 
 MoviePlan plan_movie(const MoviePreset& preset, const Show& show, const std::vector<int>& frames,
@@ -80,27 +105,24 @@ void movie_of_finished(const MovieRun& run, const std::filesystem::path& folder)
                  fmt::format("this movie takes {} x {} pixels. Another --from or --size fits them",
                              columns(run.show.projection), rows(run.show.projection)),
                  "; without --from, movie does");
-  MovieFile movie(run.out, run.plan);
+  MoviePlan plan = run.plan;
+  if (takes_light_levels(plan.preset, plan.tags)) plan.levels = measured_levels(run, finished);
+  MovieFile movie(run.out, plan);
   Progress progress(run.frames.size());
-  std::deque<std::future<GradedFrame>> ahead;
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    for (; next < run.frames.size() && ahead.size() < frames_ahead(run); ++next)
-      ahead.push_back(std::async(std::launch::async, [&finished, number = run.frames[next]] {
-        return finished.read(number);
-      }));
-    const GradedFrame frame = ahead.front().get();
-    ahead.pop_front();
+  for_each_frame(run, finished, [&](const GradedFrame& frame) {
     movie.add({frame.width, frame.height, [&frame](int first, int end, unsigned short* rgb) {
                  std::copy(frame.row(first), frame.row(end), rgb);
                }});
     progress.made();
-  }
+  });
   movie.finish();
   say_done(run, progress);
 }
 
 void movie_of_rendered(const MovieRun& run) {
+  if (takes_light_levels(run.plan.preset, run.plan.tags))
+    say("the movie will not say its light levels (MaxCLL, MaxFALL), which are measured from "
+        "finished frames; --from takes such");
   KeyedRenderer renderer(run.show, run.frames, run.grader.transform_id(), run.threads);
   FrameGrading grading(run.grader, run.threads);
   MovieFile movie(run.out, run.plan);

@@ -214,6 +214,19 @@ std::vector<std::string> video_options(const MoviePreset& preset, const MovieSiz
   return options;
 }
 
+bool takes_light_levels(const MoviePreset& preset, const ColourTags& tags) {
+  return tags.transfer == kH273Pq &&
+         std::ranges::find(preset.video, "-x265-params") != preset.video.end();
+}
+
+// Both are rounded up, so that no pixel and no frame is brighter than the movie says.
+void add_light_levels(std::vector<std::string>& options, const LightLevels& levels) {
+  const auto name = std::ranges::find(options, "-x265-params");
+  if (name == options.end()) return;
+  *(name + 1) += fmt::format(":max-cll={:.0f},{:.0f}", std::ceil(levels.content),
+                             std::ceil(levels.frame_average));
+}
+
 std::vector<std::string> sound_inputs(const Sound& sound) {
   std::vector<std::string> options;
   for (const SoundFile& file : sound.files) {

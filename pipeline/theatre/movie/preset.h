@@ -8,6 +8,7 @@
 
 #include "pipeline/base/frame_rate.h"
 #include "pipeline/theatre/movie/colour_tags.h"
+#include "pipeline/theatre/movie/light_levels.h"
 #include "pipeline/theatre/sound/sound.h"
 
 namespace domefall {
@@ -60,6 +61,12 @@ std::vector<std::string> input_options(const MovieSize& frames, const FrameRate&
 std::vector<std::string> video_options(const MoviePreset& preset, const MovieSize& frames,
                                        const FrameRate& rate, const ColourTags& tags,
                                        const std::string& subtitles);
+
+// Says whether a movie of these tags has a place for the light levels of its frames: PQ by x265.
+bool takes_light_levels(const MoviePreset& preset, const ColourTags& tags);
+
+// Gives them to x265, in whole cd/m^2, as part of the options that video_options() returned.
+void add_light_levels(std::vector<std::string>& options, const LightLevels& levels);
 
 // Returns ffmpeg's filter that makes one stream, [sound], of a sound's files, which are its inputs
 // from `input` on.  It has the length of the frames first to first + count - 1 of a show.

@@ -164,6 +164,36 @@ TEST(ColourTags, APowerOf26HasNoTagButItsPrimariesHave) {
   EXPECT_EQ(tags_for("Dome G2.6 DCI-P3"), (ColourTags{11, 2, 1}));
 }
 
+TEST(ColourTags, OfHdrAreThoseOfBt2100) {
+  EXPECT_EQ(tags_for("Rec.2100 PQ 1000 nits"), (ColourTags{9, 16, 9}));
+  EXPECT_EQ(tags_for("Rec.2100 HLG 1000 nits"), (ColourTags{9, 18, 9}));
+  EXPECT_EQ(tags_for("P3-D65 PQ 1000 nits"), (ColourTags{12, 16, 1}));
+}
+
+// ST 2084 gives 100 cd/m^2 the code 0.508078 and 1000 the code 0.751827.
+TEST(LightLevels, AreThoseOfTheBrightestChannelOfPixelsAndFrames) {
+  const auto code = [](double of_one) { return static_cast<unsigned short>(of_one * 65535 + 0.5); };
+  GradedFrame even(2, 1), point(2, 1);
+  for (std::size_t k = 1; k < 6; k += 3) even.pixels[k] = code(0.508078);
+  point.pixels[2] = code(0.751827);
+  point.pixels[0] = code(0.508078);
+  LightLevels levels;
+  take_levels(even, levels);
+  EXPECT_NEAR(levels.content, 100, 0.1);
+  EXPECT_NEAR(levels.frame_average, 100, 0.1);
+  take_levels(point, levels);
+  EXPECT_NEAR(levels.content, 1000, 1);
+  EXPECT_NEAR(levels.frame_average, 500, 0.5);
+  take_levels(even, levels);
+  EXPECT_NEAR(levels.content, 1000, 1);
+}
+
+TEST(LightLevels, AreForPqByX265Alone) {
+  EXPECT_TRUE(takes_light_levels(movie_preset("dome"), {9, 16, 9}));
+  EXPECT_FALSE(takes_light_levels(movie_preset("dome"), {9, 18, 9}));
+  EXPECT_FALSE(takes_light_levels(movie_preset("review"), {9, 16, 9}));
+}
+
 TEST(ColourTags, EveryViewOfADisplayHasTheSame) {
   for (const char* view : {"Dome", "ACES SDR", "Star field", "Un-tone-mapped"})
     EXPECT_EQ(tags_for("sRGB - Display", view), (ColourTags{1, 13, 1})) << view;
