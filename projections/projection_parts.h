@@ -68,6 +68,7 @@ struct ProjectionTraits {
   bool has_seam = false;       // its left and right edge are one meridian
   bool has_faces = false;      // it consists of several images (cubemap_faces)
   bool keeps_circles = false;  // a circle on the sphere is a circle in the image
+  bool keeps_lines = false;    // a straight line in space is a straight line in the image
   double shown_deg = 0;        // the angle that it shows, or 0 where that is free (field_of_view)
   double usual_deg = 0;        // that angle where a show says nothing
   double widest_deg = 0;       // and where it ends

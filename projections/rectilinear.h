@@ -8,6 +8,7 @@ namespace domefall {
 // stay straight.
 struct Rectilinear {
   static constexpr ProjectionTraits kTraits{.name = "rectilinear",
+                                            .keeps_lines = true,
                                             .usual_deg = 90,
                                             .widest_deg = 170,
                                             .description = "a flat picture (rectilinear)"};

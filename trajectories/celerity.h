@@ -24,6 +24,9 @@ struct Celerity : V3d {
 // Returns the Lorentz factor of a celerity.
 inline double gamma_of(const V3d& celerity) { return std::sqrt(1 + celerity.length2()); }
 
+// Returns the speed of a celerity of that length, as a part of the speed of light.
+inline double speed_of(double celerity) { return celerity / std::hypot(1.0, celerity); }
+
 // Returns the celerity against a frame F of an observer that has the celerity `own` against a frame
 // G, which itself has the celerity `frame` against F.  The axes of G are those of F, boosted
 // ([Riazuelo] eq. Lambda_cov).  It takes celerities because a speed in double precision holds no

@@ -68,8 +68,8 @@ DomeLight::Curves display_curves(const OCIO_NAMESPACE::Config& config, const std
 
 // Returns what the codes of that view mean.  Returns nothing if the view's space is not one of a
 // display, if its light is not the sum of what the three channels give by one curve (HLG aside), or
-// if this curve is none of a power, sRGB's and HLG's to a thousandth of white, and PQ's to 0.2 %.  Primaries within 3e-4 of a
-// standard's are taken to be the standard's.
+// if this curve is none of a power, sRGB's and HLG's to a thousandth of white, and PQ's to 0.2 %.
+// Primaries within 3e-4 of a standard's are taken to be the standard's.
 std::optional<DisplayColour> display_colour(const OCIO_NAMESPACE::Config& config,
                                             const std::string& display, const std::string& view);
 

@@ -100,6 +100,9 @@ struct AttitudeKey {
   std::vector<V3d> turns{};
 };
 
+// A SkyFigure is the lines of a constellation, each through two places or more.
+using SkyFigure = std::vector<std::vector<SkyDirection>>;
+
 // A Title is a text on the dome.
 struct Title {
   std::string text;  // UTF-8; lines end in '\n'; title_text.h has the meaning of braces
@@ -109,8 +112,7 @@ struct Title {
   // The text stands below the image of this place on the sky, if there is one, as the lens and the
   // motion show it.
   std::optional<SkyDirection> place{};
-  // These lines are drawn on the sky in the same light, each through two places or more.
-  std::vector<std::vector<SkyDirection>> figure{};
+  SkyFigure figure{};  // is drawn on the sky in the same light
   // Otherwise the middle of the text stands here (radians): to the right of the audience's front,
   // and above their horizon or, on a flat image, above the line of sight.
   double azimuth = 0, elevation = 0;

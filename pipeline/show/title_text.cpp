@@ -106,11 +106,9 @@ std::optional<double> value_of(Counter counter, const Show& show, const FrameSta
       return o.proper_time * second_of_m;
     case Counter::kYear:
       return show.begins_year.value_or(0) + o.null_time * second_of_m / kJulianYear;
-    case Counter::kSpeed: {
+    case Counter::kSpeed:
       if (!has_rest(o)) return std::nullopt;
-      const double celerity = static_celerity(o).length();
-      return celerity / std::hypot(1.0, celerity);
-    }
+      return speed_of(static_celerity(o).length());
   }
   std::abort();
 }

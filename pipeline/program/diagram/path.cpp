@@ -62,7 +62,7 @@ class Instants {
     i.point.azimuth = std::atan2(place.dot(column(origin_, 2)), place.dot(column(origin_, 0)));
     i.point.swept = point_at(segment.trajectory, proper_time_at(segment, part)).azimuth;
     const double celerity = o.celerity.length();
-    i.point.speed = celerity / std::hypot(1.0, celerity);
+    i.point.speed = speed_of(celerity);
     return i;
   }
 

@@ -18,7 +18,7 @@
 #include "pipeline/program/preview/page_files.h"
 #include "pipeline/program/preview/screen_view.h"
 #include "pipeline/program/preview/show_facts.h"
-#include "pipeline/theatre/movie/listening.h"
+#include "pipeline/theatre/movie/movie_file.h"
 
 namespace domefall {
 namespace {

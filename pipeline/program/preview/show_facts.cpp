@@ -99,9 +99,8 @@ Json titles_of(const Show& show) {
 
 // Returns the speed against an observer at rest, or inside the horizon against one who falls
 // freely.
-double speed_of(const ObserverState& o) {
-  const double celerity = has_rest(o) ? static_celerity(o).length() : o.celerity.length();
-  return celerity / std::hypot(1.0, celerity);
+double shown_speed(const ObserverState& o) {
+  return speed_of(has_rest(o) ? static_celerity(o).length() : o.celerity.length());
 }
 
 Json states_of(const Show& show) {
@@ -117,7 +116,7 @@ Json states_of(const Show& show) {
     r.push_back(rounded_number(o.r));
     regions.push_back(is_flat(o) ? Json() : Json(region_name(o.region)));
     clocks.push_back(rounded_number(o.proper_time));
-    speeds.push_back(rounded_number(speed_of(o)));
+    speeds.push_back(rounded_number(shown_speed(o)));
     const auto shift = frequency_range(o, own_sky(o.tetrad), !show.effects.lensing);
     shifts.push_back(shift ? rounded_number(1 / shift->largest) : Json());
   }

@@ -252,7 +252,7 @@ ExrMatrix world_to_camera(const M33d& world_from_camera) {
 // A place in the picture is (0, 0) at its upper left corner and (1, 1) at its lower right one.  The
 // last component is the distance ahead.
 std::optional<ExrMatrix> world_to_ndc(const M33d& world_from_camera, const Projection& p) {
-  if (!std::holds_alternative<Rectilinear>(p)) return std::nullopt;
+  if (!traits_of(p).keeps_lines) return std::nullopt;
   const double half_width = std::tan(*field_of_view(p) / 2),
                half_height = half_width * rows(p) / columns(p);
   const V3d ahead = -column(world_from_camera, 2);

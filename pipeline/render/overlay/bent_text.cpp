@@ -139,6 +139,13 @@ TextSurface::TextSurface(const M33d& camera_from_audience, double azimuth, doubl
   start_ = std::asinh(std::tan(latitude));
 }
 
+TextSurface TextSurface::at(const M33d& camera_from_audience, const CameraDirection& n,
+                            double height, double below) {
+  const V3d seen = apply_transposed(camera_from_audience, n.v);
+  return {camera_from_audience, std::atan2(seen.x, seen.y),
+          std::asin(std::clamp(seen.z, -1.0, 1.0)) - below, height};
+}
+
 CameraDirection TextSurface::direction(const TextPoint& p) const {
   const double around = p.x * scale_, ordinate = start_ + p.y * scale_;
   // By the inverse of Mercator's projection, the cosine of the latitude is 1/cosh(ordinate) and the

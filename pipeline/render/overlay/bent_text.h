@@ -28,6 +28,10 @@ class TextSurface {
   // radians.  `camera_from_audience` is as audience_axes() has it.
   TextSurface(const M33d& camera_from_audience, double azimuth, double elevation, double height);
 
+  // The middle is where the camera sees something in this direction, or this angle (radians) below.
+  static TextSurface at(const M33d& camera_from_audience, const CameraDirection& n, double height,
+                        double below = 0);
+
   CameraDirection direction(const TextPoint& p) const;
   // Returns the point of the text that lies in a direction, which is infinitely high or low at the
   // pole and its opposite.

@@ -22,7 +22,7 @@ std::string motion_text(const Show& show, const ObserverState& o) {
   if (has_rest(o)) {
     // The celerity is gamma v, and v = gamma v/sqrt(1 + (gamma v)^2).
     const double celerity = static_celerity(o).length();
-    text = fmt::format("v = {:.5f} c", celerity / std::hypot(1.0, celerity));
+    text = fmt::format("v = {:.5f} c", speed_of(celerity));
   } else {
     text = fmt::format("gamma v = {} (free fall)", five_digits(o.celerity.length()));
   }

@@ -10,8 +10,9 @@ namespace domefall {
 // These values place lines for the eye, and nothing else in a frame depends on them.
 
 // Up to this angle from its rim, a dome's picture is often hidden by seats and by the light of
-// doors.  IMERSA's safe area ends there, too, and docs/overlays.md has the same angle for titles.  A larger angle would give up more of the picture, and a smaller one would call safe what
-// some seats do not see.
+// doors.  IMERSA's safe area ends there, too, and docs/overlays.md has the same angle for titles.  A
+// larger angle would give up more of the picture, and a smaller one would call safe what some seats
+// do not see.
 inline constexpr double kSafeElevationDeg = 10;
 // IMERSA calls safe what lies up to 50 degrees to either side of the front and from 10 to 60
 // degrees high.

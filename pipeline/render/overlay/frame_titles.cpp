@@ -86,19 +86,15 @@ class TitleOnDome {
  private:
   // Returns where a text lies that stands clear below the image of its place.
   TextSurface below(const Title& title, const FrameState& state) const {
-    constexpr double kGap = 1.5;  // from the image to the middle of a line, in capitals
-    const V3d seen =
-        apply_transposed(state.camera_from_audience, sky_->image(*title.place).v).normalized();
-    const double lines = letters_->half_height;
-    return {state.camera_from_audience, std::atan2(seen.x, seen.y),
-            std::asin(std::clamp(seen.z, -1.0, 1.0)) - (kGap + lines - 0.5) * title.height,
-            title.height};
+    constexpr double kGap = 1;  // from the image to the text, in capitals
+    return TextSurface::at(state.camera_from_audience, sky_->image(*title.place), title.height,
+                           (kGap + letters_->half_height) * title.height);
   }
 
   const Projection& projection_;
   std::shared_ptr<const LetteredText> letters_;
   std::optional<DirectSky> sky_;  // of a title that belongs to a place on it
-  const std::vector<std::vector<SkyDirection>>& figure_;
+  const SkyFigure& figure_;
   TitleGround ground_;
   std::optional<TextSurface> surface_;
 };

@@ -31,8 +31,8 @@ std::shared_ptr<const LetteredText> title_letters(const std::string& text,
 // as title_letters.
 std::string titles_key(const Show& show, const FrameState& state);
 
-// Returns how much of each pixel's light a title covers, by its letters, its lines, its plate and its
-// shadow and by its opacity, [height][width].
+// Returns how much of each pixel's light a title covers, by its letters, lines, plate and
+// shadow, and by its opacity, [height][width].
 // Throws as title_letters.
 std::vector<float> covered_by(const Show& show, const SeenTitle& seen, const FrameState& state);
 

@@ -46,8 +46,8 @@ void add_line(const SkyDirection& from, const SkyDirection& to, const DirectSky&
 DirectSky::DirectSky(const FrameState& state, const Effects& effects)
     : sky_(own_sky(state.observer.tetrad)), sight_(state, effects) {}
 
-void add_figure(const std::vector<std::vector<SkyDirection>>& figure, const DirectSky& sky,
-                const Projection& projection, Coverage& coverage) {
+void add_figure(const SkyFigure& figure, const DirectSky& sky, const Projection& projection,
+                Coverage& coverage) {
   for (const std::vector<SkyDirection>& line : figure)
     for (std::size_t k = 1; k < line.size(); ++k)
       add_line(line[k - 1], line[k], sky, projection, coverage);

@@ -27,7 +27,7 @@ class DirectSky {
 
 // Adds lines through places on the sky, clear of the places themselves, where stars stand.  A line
 // is broken where its images jump from one side of the hole to the other.
-void add_figure(const std::vector<std::vector<SkyDirection>>& figure, const DirectSky& sky,
-                const Projection& projection, Coverage& coverage);
+void add_figure(const SkyFigure& figure, const DirectSky& sky, const Projection& projection,
+                Coverage& coverage);
 
 }  // namespace domefall

@@ -139,10 +139,8 @@ void StarLabels::draw(const FrameState& state, const FrameRef& frame, const Ligh
     const auto pixel = pixel_of(projection, image.direction);
     if (!pixel || !is_in_image(projection, *pixel)) continue;
     const LetteredText text = lettered(image.name, label_style());
-    const V3d place = apply_transposed(state.camera_from_audience, image.direction.v);
-    const TextSurface surface(state.camera_from_audience, std::atan2(place.x, place.y),
-                              std::asin(std::clamp(place.z, -1.0, 1.0)),
-                              letter * pixel_angle(projection, *pixel));
+    const TextSurface surface = TextSurface::at(state.camera_from_audience, image.direction,
+                                                letter * pixel_angle(projection, *pixel));
     const auto along = places_of_label(surface, kGap + 2 * text.half_width, projection);
     if (!along || !take(*along, kRing * letter, taken)) continue;
     Coverage& coverage = image.secondary ? secondary : primary;

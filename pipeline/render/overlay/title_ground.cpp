@@ -99,8 +99,8 @@ TitleGround::TitleGround(const LetteredText& text, double plate, double shadow)
     for (int column = 0; column < columns_; ++column)
       blur_line(blurred_.data() + column, rows_, columns_, line);
   }
-  // A single stroke covers three tenths of the blur.  Sixteen such layers make the shadow whole where
-  // a letter is, half at the foot of the blur, and soft beyond.
+  // A single stroke covers three tenths of the blur.  Sixteen such layers make the shadow whole
+  // where a letter is, half at the foot of the blur, and soft beyond.
   for (float& value : blurred_) {
     float left = 1 - value;
     for (int doubling = 0; doubling < 4; ++doubling) left *= left;

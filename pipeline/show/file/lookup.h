@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/show/file/item.h"
+#include "pipeline/show/show.h"
 #include "pipeline/sources/stars/star_catalogue.h"
 
 namespace domefall {
@@ -44,9 +45,6 @@ class SkyPlaces {
 // Reads a table with the columns name, ra_deg and dec_deg (J2000).  Throws InputError naming the
 // file.
 std::vector<NamedStar> read_sky_places(const std::filesystem::path& file);
-
-// A SkyFigure is the lines of a constellation, each through two places or more.
-using SkyFigure = std::vector<std::vector<SkyDirection>>;
 
 // Reads a table with the columns constellation, abbreviation, line, ra_deg and dec_deg (J2000), and
 // returns the figures by both names, folded as those of places.  Throws InputError naming the file.

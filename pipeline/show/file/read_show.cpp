@@ -79,14 +79,9 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.grade = read_grade(section, lookup);
   show.draws_titles = section.flag("draw_titles");
   show.timeline = read_timeline(section, show, camera, lookup);
-  // Events are found on a timeline without mistakes.
-  if (root.problems->count() == 0) {
-    join_segments(show);
-    find_marked_events(section, show);
-  } else {
-    for (Marker& marker : show.markers)
-      if (marker.event) marker.at_s = 0;
-  }
+  // The observer is followed, and events are found, along a timeline without mistakes.
+  if (root.problems->count() == 0) join_segments(show);
+  find_marked_events(section, show);
   if (!show.timeline.empty()) show.titles = read_titles(section, {0, end_of(show)}, show, lookup);
   show.grade.dome = read_dome(section, show.projection);
   show.output = read_output(section);
@@ -126,8 +121,6 @@ Show read_show(const std::filesystem::path& file) {
   const Item root{node, start, "", &problems};
   read_sections(root, lookup, show);
   problems.raise();
-  // From here on the observer is followed along the timeline, which must be free of mistakes.
-  join_segments(show);
   check_effects(root, show);
   problems.raise();
   follow_turns(show);

@@ -252,4 +252,40 @@ void MovieFile::fail(const ChildOutcome& outcome) const {
   throw std::runtime_error(what);
 }
 
+// ---- the preview's sound ----
+
+namespace {
+
+// Returns the filter by which a sound becomes stereo.  ffmpeg knows what to do with channels that
+// have names.  Of others, such as the speakers of a dome by their numbers, both ears hear the mean.
+std::string to_stereo(const Sound& sound) {
+  constexpr int kMostGuessed = 8;  // channels of one file, for which ffmpeg has names
+  const bool named =
+      sound.files.size() == 1 ? sound.channels <= kMostGuessed : !sound.layout.empty();
+  if (named) return "aformat=channel_layouts=stereo";
+  std::string mean;
+  for (int k = 0; k < sound.channels; ++k)
+    mean += fmt::format("{}{:.6f}*c{}", k > 0 ? "+" : "", 1.0 / sound.channels, k);
+  return fmt::format("pan=stereo|c0={}|c1={}", mean, mean);
+}
+
+}  // namespace
+
+std::string sound_for_browser(const Show& show) {
+  if (show.audio.empty()) throw InputError("the show names no audio");
+  const Sound sound = show_sound(show, {});
+  const std::string filter =
+      sound_filter(sound, 0, 0, frame_count(show), frame_rate_of(show.frames_per_second)) +
+      ";[sound]" + to_stereo(sound) + "[stereo]";
+  const MemoryFile made("the sound of the preview");
+  Arguments all{"ffmpeg", "-nostdin", "-hide_banner", "-v", "error", "-y"};
+  append_to(all, sound_inputs(sound));
+  append_to(all, {"-filter_complex", filter, "-map", "[stereo]", "-c:a", "aac", "-b:a", "160k",
+                  "-movflags", "+faststart", "-f", "mp4", "file:" + made.path()});
+  const ChildOutcome outcome = ChildProgram(all, {made.number()}, kPackage).wait();
+  if (!outcome.good())
+    throw TemporaryError("the sound cannot be heard here: ffmpeg " + outcome.text());
+  return made.contents();
+}
+
 }  // namespace domefall

@@ -66,4 +66,9 @@ class MovieFile {
   std::unique_ptr<ChildProgram> ffmpeg_;
 };
 
+// Returns the sound that a show names as a browser plays it: mixed to stereo by ffmpeg, as AAC in an
+// MP4 file of the show's length.  Throws InputError for a show that names none and as show_sound(),
+// and TemporaryError where ffmpeg fails.
+std::string sound_for_browser(const Show& show);
+
 }  // namespace domefall
