@@ -67,13 +67,11 @@ void require_room_for_frames(const FarmPlan& plan, const Show& show, const std::
                              double bytes) {
   constexpr double kBlock = 4096, kSurely = 0.5;
   const FrameFolder folder(plan.out, show);
-  const int files = int{folder.has_linear()} + int{folder.has_graded()};
+  const auto files = static_cast<double>(folder.paths(0).size());
   const double least = bytes > 0 ? kSurely * bytes : kBlock * files;
   double replaced = 0;
-  for (const int frame : frames) {
-    if (folder.has_linear()) replaced += size_of_file(folder.linear(frame));
-    if (folder.has_graded()) replaced += size_of_file(folder.graded(frame));
-  }
+  for (const int frame : frames)
+    for (const fs::path& file : folder.paths(frame)) replaced += size_of_file(file);
   const auto count = static_cast<double>(frames.size());
   require_room(plan.out, count * least - replaced,
                fmt::format("{} frames take {}{}; another --out, --frames, or an output that keeps "

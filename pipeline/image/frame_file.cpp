@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTimeCode.h>
+#include <fmt/format.h>
 
 #include <optional>
 #include <vector>
@@ -156,16 +157,22 @@ std::vector<ExrChannel> channels_of(const ImageRgb<T>& picture) {
 }
 
 template <class T>
-std::vector<ExrChannel> channels_of(const LayeredFrame<T>& frame) {
+std::vector<ExrChannel> channels_of(const LayerImage<T>& layer) {
+  std::vector<ExrChannel> channels = channels_of(layer.light);
+  if (!layer.alpha.empty()) channels.push_back({"A", layer.alpha.data()});
+  return channels;
+}
+
+template <class T>
+std::vector<ExrChannel> channels_of(const LayeredFrame<T>& frame, bool without_layers) {
   std::vector<ExrChannel> channels = channels_of(frame.picture);
   if (!frame.alpha.empty()) channels.push_back({"A", frame.alpha.data()});
   for (const LayerImage<T>& layer : frame.layers) {
-    const std::string prefix = std::string(kind_of(layer.layer).name) + ".";
-    for (ExrChannel channel : channels_of(layer.light)) {
-      channel.name = prefix + channel.name;
+    if (without_layers) break;
+    for (ExrChannel channel : channels_of(layer)) {
+      channel.name = fmt::format("{}.{}", kind_of(layer.layer).name, channel.name);
       channels.push_back(std::move(channel));
     }
-    if (!layer.alpha.empty()) channels.push_back({prefix + "A", layer.alpha.data()});
   }
   for (const Matte& matte : frame.mattes)
     channels.push_back({matte.name + ".A", matte.covered.data()});
@@ -197,8 +204,14 @@ void set_file_threads(int threads) {
 template <class T>
 void write_frame(const std::filesystem::path& path, const LayeredFrame<T>& frame,
                  const FrameInfo& info, ExrCompression compression, const FrameData& data) {
-  write_colours(path, frame.picture.width, frame.picture.height, channels_of(frame), info,
-                compression, data);
+  write_colours(path, frame.picture.width, frame.picture.height,
+                channels_of(frame, data.without_layers), info, compression, data);
+}
+
+template <class T>
+void write_layer(const std::filesystem::path& path, const LayerImage<T>& layer,
+                 const FrameInfo& info, ExrCompression compression) {
+  write_colours(path, layer.light.width, layer.light.height, channels_of(layer), info, compression);
 }
 
 template <class T>
@@ -211,6 +224,10 @@ template void write_frame(const std::filesystem::path&, const LayeredHalfFrame&,
                           ExrCompression, const FrameData&);
 template void write_frame(const std::filesystem::path&, const LayeredFloatFrame&, const FrameInfo&,
                           ExrCompression, const FrameData&);
+template void write_layer(const std::filesystem::path&, const LayerImage<Imath::half>&,
+                          const FrameInfo&, ExrCompression);
+template void write_layer(const std::filesystem::path&, const LayerImage<float>&, const FrameInfo&,
+                          ExrCompression);
 template void write_frame(const std::filesystem::path&, const HalfFrame&, const FrameInfo&,
                           ExrCompression);
 template void write_frame(const std::filesystem::path&, const FloatImage&, const FrameInfo&,

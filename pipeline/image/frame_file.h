@@ -42,6 +42,7 @@ void set_file_threads(int threads);
 struct FrameData {
   std::vector<const ChannelImage*> images{};  // of the frame's size; not null
   std::vector<std::pair<std::string, std::string>> attributes{};
+  bool without_layers = false;  // which are in files of their own
 };
 
 // Writes a frame under its final name when it is complete.  T is Imath::half or float.  Throws as
@@ -53,6 +54,11 @@ void write_frame(const std::filesystem::path& path, const LayeredFrame<T>& frame
 template <class T>
 void write_frame(const std::filesystem::path& path, const ImageRgb<T>& picture,
                  const FrameInfo& info, ExrCompression compression = ExrCompression::kZip);
+
+// Writes a layer likewise, as a picture R, G, B, with A where the layer has one.
+template <class T>
+void write_layer(const std::filesystem::path& path, const LayerImage<T>& layer,
+                 const FrameInfo& info, ExrCompression compression);
 
 // Writes a picture of other channels in the same way, as 32-bit floats with a header without
 // colours.

@@ -26,18 +26,20 @@ void write_picture(ByteSink& sink, const RowPicture& picture, const GradedInfo& 
                    const GradedFormat& format) {
   const std::string description = description_of(info);
   const std::string profile = info.colour ? icc_profile(*info.colour) : std::string();
+  const OpaqueColumns opaque = format.alpha ? info.opaque : nullptr;
   switch (format.kind) {
     case GradedKind::kPng16:
     case GradedKind::kPng8: {
-      PngHead head{format.kind == GradedKind::kPng8, info.frame, {}};
+      PngHead head{format.kind == GradedKind::kPng8, info.frame, {}, opaque};
       if (info.colour) head.chunks = png_colour_chunks(*info.colour);
       head.chunks.push_back({"tEXt", std::string(kPngKeyword) + description});
       return write_png(sink, picture, head);
     }
     case GradedKind::kTiff16:
     case GradedKind::kTiff8:
-      return write_tiff(sink, picture,
-                        {format.kind == GradedKind::kTiff8, info.frame, description, profile});
+      return write_tiff(
+          sink, picture,
+          {format.kind == GradedKind::kTiff8, info.frame, description, profile, opaque});
     case GradedKind::kJpeg:
       if (description.size() > kLongestJpegComment)
         throw InputError(fmt::format(
@@ -72,7 +74,8 @@ const char* extension_of(GradedKind kind) {
 
 std::string format_id(const GradedFormat& format) {
   if (format.kind == GradedKind::kJpeg) return fmt::format("JPEG {}", format.quality);
-  return format.kind == GradedKind::kPng8 || format.kind == GradedKind::kTiff8 ? "8 bits" : "";
+  const bool eight = format.kind == GradedKind::kPng8 || format.kind == GradedKind::kTiff8;
+  return fmt::format("{}{}", eight ? "8 bits" : "", format.alpha ? " alpha" : "");
 }
 
 GradedFormat format_by_name(const std::filesystem::path& path) {

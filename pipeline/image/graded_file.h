@@ -1,5 +1,5 @@
 // Graded frames on the disk serve projectors and encoders.  They are RGB of 8 or 16 bits as PNG,
-// TIFF or JPEG.  The fields of GradedInfo and the digest of the file (frame_check.h) are lines
+// TIFF or JPEG, the first two with an alpha where it is asked for.  The fields of GradedInfo and the digest of the file (frame_check.h) are lines
 // "name: value" of the file's description, which in a JPEG is its comment.  The meaning of the
 // codes is written where readers look for it.  A PNG has it in chunks, and the others in an ICC
 // profile.  The same frame has the same bytes wherever and whenever it is written, and with any
@@ -21,7 +21,8 @@ enum class GradedKind { kPng16, kPng8, kJpeg, kTiff16, kTiff8 };
 
 struct GradedFormat {
   GradedKind kind = GradedKind::kPng16;
-  int quality = 95;  // of a JPEG, 1 to 100
+  int quality = 95;    // of a JPEG, 1 to 100
+  bool alpha = false;  // not of a JPEG
 
   bool operator==(const GradedFormat&) const = default;
 };
@@ -45,6 +46,7 @@ struct GradedInfo {
   std::string software;
   std::string projection;
   std::optional<DisplayColour> colour;  // of the display, where that is known
+  OpaqueColumns opaque{};               // of the projection, where the format has an alpha
 };
 
 // Writes a frame under its final name when it is complete, while its rows are made.  Throws as

@@ -33,7 +33,7 @@ FrameCondition read_graded(const std::filesystem::path& path, const WantedFrame&
   try {
     const auto reader = image_formats().open(memory.path(), PixelEncoding::kStored);
     const ImageLayout& layout = reader->layout();
-    if (layout.width != wanted.width || layout.height != wanted.height || layout.channels != 3)
+    if (layout.width != wanted.width || layout.height != wanted.height || layout.channels < 3)
       throw std::runtime_error("its pixels are not those of its header");
     frame = GradedFrame(wanted.width, wanted.height);
     reader->read(frame.row(0));

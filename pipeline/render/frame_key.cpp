@@ -118,6 +118,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   if (!show.output.layers.empty()) {
     common.add("layers");
     for (const Layer layer : show.output.layers) common.add(kind_of(layer).name);
+    if (show.output.layer_files) common.add("apart");
   }
   const OutputData& data = show.output.data;
   if (data.any()) {
@@ -211,6 +212,10 @@ std::string FrameKeys::instant(const FrameState& state) const {
   if (state.vanishing)
     digest.add(instant(*state.vanishing)).add(rounded_for_key(state.vanishing_part));
   return digest.hex();
+}
+
+std::string FrameKeys::layer(const std::string& scene_key, Layer layer) {
+  return Digest().add(scene_key).add(kind_of(layer).name).hex();
 }
 
 std::string FrameKeys::graded(const std::string& scene_key, const FrameState& state) const {

@@ -34,6 +34,8 @@ class FrameKeys {
   // Returns the key of a scene-linear frame.  Throws as titles_key and overlays_key for a frame
   // with titles or overlays.
   std::string scene(const FrameState& state) const;
+  // Returns the key of a layer's own file, of the frame with this key.
+  static std::string layer(const std::string& scene_key, Layer layer);
   // Returns the key of the graded frame that is made from the frame with this key by the CDL of
   // this state.
   std::string graded(const std::string& scene_key, const FrameState& state) const;

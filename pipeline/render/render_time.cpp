@@ -104,21 +104,29 @@ class Measurement {
     return stars ? small : without_stars(small);
   }
 
-  std::filesystem::path linear() const { return folder_ / "linear.exr"; }
+  std::filesystem::path linear() const { return folder_ / "linear"; }  // a folder
   std::filesystem::path graded() const { return folder_ / "graded"; }
 
   void add_sizes(Cost& cost) const {
     if (show_.output.linear)
-      cost.linear_bytes += static_cast<double>(std::filesystem::file_size(linear())) / kFrames;
+      for (const auto& file : std::filesystem::directory_iterator(linear()))
+        cost.linear_bytes += static_cast<double>(file.file_size()) / kFrames;
     if (grader_)
       cost.graded_bytes += static_cast<double>(std::filesystem::file_size(graded())) / kFrames;
   }
 
-  void write(const RenderedFrame& frame) const {
+  void write_linear_files(RenderedFrame& frame) const {
+    std::filesystem::create_directories(linear());
+    write_linear(linear() / "frame.exr", show_, frame, FrameInfo{});
+    if (!show_.output.layer_files) return;
+    for (const Layer layer : show_.output.layers)
+      write_layer_of(linear() / kind_of(layer).name, show_, layer, frame, FrameInfo{});
+  }
+
+  void write(RenderedFrame& frame) const {
     std::future<void> other;
     if (show_.output.linear)
-      other = std::async(std::launch::async,
-                         [&] { write_linear(linear(), show_, frame, FrameInfo{}); });
+      other = std::async(std::launch::async, [&] { write_linear_files(frame); });
     if (grader_) {
       const auto rows = [&](int first, int end, unsigned short* rgb) {
         grader_->grade_rows(frame.half.picture, first, end, rgb);

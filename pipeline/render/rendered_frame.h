@@ -47,10 +47,11 @@ void render_for_files(AnyRenderer& renderer, const Show& show, const FrameState&
     frame.cryptomatte = identities(show, state, floats ? frame.full.mattes : frame.half.mattes);
 }
 
-// Writes the scene-linear file of a show that has one.  Throws as write_frame.
+// Writes the scene-linear file of a show that has one, but for layers that have files of their own.
+// Throws as write_frame.
 inline void write_linear(const std::filesystem::path& path, const Show& show,
                          const RenderedFrame& frame, const FrameInfo& info) {
-  FrameData data;
+  FrameData data{.without_layers = show.output.layer_files};
   if (frame.lens) data.images.push_back(&*frame.lens);
   if (frame.cryptomatte) {
     data.images.push_back(&frame.cryptomatte->image());
@@ -61,6 +62,16 @@ inline void write_linear(const std::filesystem::path& path, const Show& show,
     write_frame(path, frame.full, info, compression, data);
   else
     write_frame(path, frame.half, info, compression, data);
+}
+
+// Writes the file of a layer that the show asks for.  Throws as write_frame.
+inline void write_layer_of(const std::filesystem::path& path, const Show& show, Layer layer,
+                           RenderedFrame& frame, const FrameInfo& info) {
+  const ExrCompression compression = show.output.linear->compression;
+  if (RenderedFrame::keeps_floats(show))
+    write_layer(path, *frame.full.find(layer), info, compression);
+  else
+    write_layer(path, *frame.half.find(layer), info, compression);
 }
 
 }  // namespace domefall

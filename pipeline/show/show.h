@@ -265,6 +265,7 @@ struct Output {
   std::optional<ExrFormat> linear = ExrFormat{};        // nothing: none
   std::optional<GradedFormat> graded = GradedFormat{};  // nothing: none
   std::vector<Layer> layers;  // of scene-linear files, each once, in the order of drawing
+  bool layer_files = false;   // each layer has a file of its own
   OutputData data;            // of scene-linear files
   FrameNames names;
   std::string owner;  // of the pictures, named in the scene-linear files; empty: not named

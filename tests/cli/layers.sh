@@ -56,6 +56,42 @@ says '^1 frames made'
 exits 0 "$DOMEFALL" render layers_of_disc.yaml --size 96 --frames "$number" --out plain
 says '^0 frames made'
 
+# With files of their own, layers are the same pixels under the names of colours. A file that is
+# missing is made again, with its frame.
+sed 's/layers: /layer_files: true, &/' layers_of_disc.yaml >apart.yaml
+exits 0 "$DOMEFALL" render apart.yaml --size 96 --frames "$number" --out apart
+of_number=$(basename "$frame")
+for layer in sky stars disc bodies titles; do
+  oiiotool "$frame" --ch "$layer.R,$layer.G,$layer.B" -o picture.exr
+  oiiotool "apart/layers/$layer/$of_number" --ch R,G,B -o one.exr
+  same_pixels picture.exr one.exr || fail "the file of $layer has other pixels"
+done
+oiiotool "$frame" --ch disc.A -o picture.exr
+oiiotool "apart/layers/disc/$of_number" --ch A -o one.exr
+same_pixels picture.exr one.exr || fail "the file of the disc has another alpha"
+! oiiotool --info -v "apart/linear/$of_number" | grep -q 'disc[.]' || fail "the frame has its layers twice"
+cp -r apart whole
+rm "apart/layers/disc/$of_number"
+exits 0 "$DOMEFALL" render apart.yaml --size 96 --frames "$number" --out apart --dry-run
+[ "$(cat stdout)" = "$number" ] || fail "a layer's missing file makes $(cat stdout) again"
+exits 0 "$DOMEFALL" render apart.yaml --size 96 --frames "$number" --out apart
+says '^1 frames made'
+same_frames apart/layers/disc whole/layers/disc
+
+# Graded files may have an alpha, of the dome's circle.
+for kind in png16 png8 tiff16 tiff8; do
+  printf 'size: 96\ntimeline: [{duration_s: 1}]\noutput: {linear: none, graded: %s' "$kind" >plain.yaml
+  sed 's/$/, graded_alpha: true}/;1,2s/, graded_alpha: true}//' plain.yaml >alpha.yaml
+  echo '}' >>plain.yaml
+  for show in plain alpha; do exits 0 "$DOMEFALL" render $show.yaml --frames 0 --out "$kind"; done
+  oiiotool "$kind"/graded/alpha_00000.* --ch R,G,B -o colours.tif
+  oiiotool "$kind"/graded/plain_00000.* -o plain.tif
+  same_pixels colours.tif plain.tif || fail "an alpha changes the colours of $kind"
+  oiiotool "$kind"/graded/alpha_00000.* --ch A -d float -o alpha.exr
+  oiiotool "$frame" --ch A -d float -o circle.exr
+  same_pixels alpha.exr circle.exr || fail "the alpha of $kind is not that of the frame"
+done
+
 # Channels in the order in which other programs list them; alpha is 1 in the dome alone.
 exits 0 oiiotool --info -v "$frame"
 grep -q 'channel list: R.*G.*B.*A.*bodies.R.*bodies.A.*disc.R.*disc.A.*sky.R.*stars.R.*titles.R.*titles.A' stdout ||
@@ -138,6 +174,8 @@ refuses 'layers: [sky, star]' "output.layers\[2\] must be sky.*'star'; did you m
 refuses 'layers: [sky, sky]' 'output.layers\[2\] is listed twice: sky'
 refuses 'layers: sky' 'output.layers'
 refuses 'linear: none, layers: [sky]' 'output.layers are in scene-linear files'
+refuses 'layer_files: true' 'output.layer_files is for layers, of which none'
+refuses 'graded: jpeg, graded_alpha: true' 'output.graded_alpha is for PNG and TIFF'
 refuses 'data: [lens, matte]' "output.data\[2\] must be lens.*'matte'; did you mean mattes"
 refuses 'linear: none, data: [lens]' 'output.data are in scene-linear files'
 

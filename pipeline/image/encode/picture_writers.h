@@ -1,5 +1,5 @@
-// These write graded pictures, in RGB without alpha: PNG and TIFF files of 8 or 16 bits, and JPEG
-// files of 8 bits, whose colours are as fine as their light (4:4:4).  The rows come from several
+// These write graded pictures in RGB: PNG and TIFF files of 8 or 16 bits, which may have an alpha, not
+// premultiplied, and JPEG files of 8 bits, whose colours are as fine as their light (4:4:4).  The rows come from several
 // threads (side_by_side.h).  The bytes depend on the rows and the head alone.
 #pragma once
 
@@ -22,6 +22,7 @@ struct PngHead {
   bool eight_bits = false;       // dithered (dither.h)
   int frame = 0;                 // for the noise
   std::vector<PngChunk> chunks;  // before the pixels
+  OpaqueColumns opaque{};        // without it there is no alpha
 };
 
 void write_png(ByteSink& sink, const RowPicture& picture, const PngHead& head);
@@ -36,7 +37,8 @@ struct TiffHead {
   bool eight_bits = false;  // dithered (dither.h)
   int frame = 0;            // for the noise
   std::string description;
-  std::string profile;  // ICC; empty for none
+  std::string profile;     // ICC; empty for none
+  OpaqueColumns opaque{};  // without it there is no alpha
 };
 
 // Throws std::runtime_error for a part that libtiff cannot write.

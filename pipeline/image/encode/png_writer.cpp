@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cstdint>
 
 #include "pipeline/base/deflate.h"
 #include "pipeline/base/side_by_side.h"
+#include "pipeline/image/encode/alpha.h"
 #include "pipeline/image/encode/dither.h"
 #include "pipeline/image/encode/picture_writers.h"
 
@@ -27,7 +29,7 @@ constexpr unsigned char kSub = 1, kUp = 2;
 class PngStrip {
  public:
   void make(const RowPicture& picture, const PngHead& head, int first, int end) {
-    const std::size_t pixel = head.eight_bits ? 3 : 6,
+    const std::size_t pixel = (head.opaque ? 4 : 3) * (head.eight_bits ? 1 : 2),
                       row_bytes = pixel * static_cast<std::size_t>(picture.width);
     const auto rows = static_cast<std::size_t>(end - first);
     codes_.resize(3 * rows * static_cast<std::size_t>(picture.width));
@@ -58,9 +60,15 @@ class PngStrip {
  private:
   // Takes the codes as they stand in the file, before the filter.
   void take_bytes(const PngHead& head, int width, int first, int rows) {
-    bytes_.reserve(codes_.size() * (head.eight_bits ? 1 : 2));
-    if (head.eight_bits)
-      return dither_rows(codes_.data(), width, rows, first, head.frame, bytes_.data());
+    bytes_.reserve(codes_.size() / 3 * (head.opaque ? 4 : 3) * (head.eight_bits ? 1 : 2));
+    if (head.eight_bits) {
+      dither_rows(codes_.data(), width, rows, first, head.frame, bytes_.data());
+      if (!head.opaque) return;
+      const auto rgba = with_alpha(bytes_.data(), width, first, rows, head.opaque);
+      std::copy(rgba.begin(), rgba.end(), bytes_.data());
+      return;
+    }
+    if (head.opaque) codes_ = with_alpha(codes_.data(), width, first, rows, head.opaque);
     unsigned char* out = bytes_.data();
     for (const unsigned short code : codes_) {
       *out++ = static_cast<unsigned char>(code >> 8);
@@ -75,11 +83,11 @@ class PngStrip {
 };
 
 std::string png_header(const RowPicture& picture, const PngHead& head) {
-  constexpr char kRgb = 2;
+  constexpr char kRgb = 2, kRgba = 6;
   std::string data = png_number(static_cast<std::uint32_t>(picture.width)) +
                      png_number(static_cast<std::uint32_t>(picture.height));
   data += head.eight_bits ? '\x08' : '\x10';
-  data += kRgb;
+  data += head.opaque ? kRgba : kRgb;
   return data + std::string(3, '\0');  // the only compression, the only filters, not interlaced
 }
 

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 namespace domefall {
 
 // Gives the rows first <= y < end of a picture as rgb[end - first][width][3], display-encoded, of
 // 16 bits.  It is called from several threads at once, once for each row.
 using RowSource = std::function<void(int first, int end, unsigned short* rgb)>;
+
+// Says which columns first <= x < end of a row are opaque.
+using OpaqueColumns = std::function<std::pair<int, int>(int row)>;
 
 struct RowPicture {
   int width = 0, height = 0;

@@ -12,6 +12,7 @@
 
 #include "pipeline/base/deflate.h"
 #include "pipeline/base/side_by_side.h"
+#include "pipeline/image/encode/alpha.h"
 #include "pipeline/image/encode/dither.h"
 #include "pipeline/image/encode/picture_writers.h"
 
@@ -24,15 +25,19 @@ class TiffStrip {
     const auto width = static_cast<std::size_t>(picture.width);
     codes_.resize(3 * width * static_cast<std::size_t>(end - first));
     picture.rows(first, end, codes_.data());
+    const int rows = end - first;
+    const std::size_t channels = head.opaque ? 4 : 3;
     if (!head.eight_bits) {
-      take_differences(codes_.data(), 3 * width);
+      if (head.opaque) codes_ = with_alpha(codes_.data(), picture.width, first, rows, head.opaque);
+      take_differences(codes_, width, channels);
       deflater_.pack_stream({reinterpret_cast<const char*>(codes_.data()), 2 * codes_.size()},
                             packed_);
       return;
     }
     bytes_.resize(codes_.size());
-    dither_rows(codes_.data(), picture.width, end - first, first, head.frame, bytes_.data());
-    take_differences(bytes_.data(), 3 * width);
+    dither_rows(codes_.data(), picture.width, rows, first, head.frame, bytes_.data());
+    if (head.opaque) bytes_ = with_alpha(bytes_.data(), picture.width, first, rows, head.opaque);
+    take_differences(bytes_, width, channels);
     deflater_.pack_stream({reinterpret_cast<const char*>(bytes_.data()), bytes_.size()}, packed_);
   }
 
@@ -41,10 +46,12 @@ class TiffStrip {
  private:
   // By TIFF 6.0, section 14, each sample is stored less that of the pixel on its left.
   template <class Sample>
-  void take_differences(Sample* samples, std::size_t row_samples) const {
-    for (std::size_t row = 0; row < codes_.size(); row += row_samples)
-      for (std::size_t k = row_samples; k-- > 3;)
-        samples[row + k] = static_cast<Sample>(samples[row + k] - samples[row + k - 3]);
+  static void take_differences(std::vector<Sample>& samples, std::size_t width,
+                               std::size_t channels) {
+    const std::size_t row_samples = width * channels;
+    for (std::size_t row = 0; row < samples.size(); row += row_samples)
+      for (std::size_t k = row_samples; k-- > channels;)
+        samples[row + k] = static_cast<Sample>(samples[row + k] - samples[row + k - channels]);
   }
 
   std::vector<unsigned short> codes_;
@@ -82,7 +89,7 @@ void require_tiff(bool done) {
 }
 
 // The strips come in their order, packed, and then finish() once.  All throw std::runtime_error.  The
-// pixels are RGB without alpha, packed by deflate after each sample is reduced by that on its left.
+// pixels are RGB or RGBA, packed by deflate after each sample is reduced by that on its left.
 class TiffFile {
  public:
   TiffFile(ByteSink& sink, const RowPicture& picture, const TiffHead& head, int rows_per_strip)
@@ -94,7 +101,9 @@ class TiffFile {
     set(TIFFTAG_IMAGEWIDTH, picture.width);
     set(TIFFTAG_IMAGELENGTH, picture.height);
     set(TIFFTAG_BITSPERSAMPLE, head.eight_bits ? 8 : 16);
-    set(TIFFTAG_SAMPLESPERPIXEL, 3);
+    set(TIFFTAG_SAMPLESPERPIXEL, head.opaque ? 4 : 3);
+    const std::uint16_t alpha = EXTRASAMPLE_UNASSALPHA;
+    if (head.opaque) set(TIFFTAG_EXTRASAMPLES, 1, &alpha);
     set(TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
     set(TIFFTAG_PREDICTOR, PREDICTOR_HORIZONTAL);
     set(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);

@@ -76,7 +76,7 @@ void add_frame(std::span<const ExpectedFile> files, std::span<const FileFinding>
     const FileFinding& finding = findings[k];
     if (finding.condition == kOther) all.others.push_back({frame, files[k].name, finding.reason});
     if (finding.condition == kOlder) (files[k].is_linear() ? linear : graded) = true;
-    if (worst.condition == kGood && finding.black)
+    if (worst.condition == kGood && finding.black && !files[k].is_layer)
       (files[k].is_linear() ? all.black_linear : all.black_graded).push_back(frame);
   }
   if (linear || graded) (linear ? all.older_linear : all.older_graded).push_back(frame);

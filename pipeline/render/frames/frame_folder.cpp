@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char *kLinear = "linear", *kGraded = "graded", *kLens = "lens";
+constexpr const char *kLinear = "linear", *kGraded = "graded", *kLens = "lens",
+                     *kLayerFiles = "layers";
 
 // Visits the files in a folder and in those below it, except for hidden ones.
 void for_each_file(const fs::path& folder, const std::function<void(const fs::path&)>& use) {
@@ -72,7 +73,7 @@ FrameFolder::FrameFolder(fs::path folder, const Show& show)
       name_(show.file.stem().string()),
       file_name_(show.output.names.name.empty() ? name_ : show.output.names.name) {}
 
-fs::path FrameFolder::path_of(const char* kind, int frame, const char* extension) const {
+fs::path FrameFolder::path_of(const std::string& kind, int frame, const char* extension) const {
   const FrameNames& names = show_.output.names;
   fs::path folder = folder_ / kind;
   if (names.per_folder > 0) {
@@ -87,6 +88,22 @@ fs::path FrameFolder::path_of(const char* kind, int frame, const char* extension
 fs::path FrameFolder::linear(int frame) const { return path_of(kLinear, frame, "exr"); }
 
 fs::path FrameFolder::lens(int frame) const { return path_of(kLens, frame, "exr"); }
+
+fs::path FrameFolder::layer(int frame, Layer layer) const {
+  return path_of(fmt::format("{}/{}", kLayerFiles, kind_of(layer).name), frame, "exr");
+}
+
+std::vector<Layer> FrameFolder::layers() const {
+  return show_.output.layer_files ? show_.output.layers : std::vector<Layer>{};
+}
+
+std::vector<fs::path> FrameFolder::paths(int frame) const {
+  std::vector<fs::path> paths;
+  if (has_linear()) paths.push_back(linear(frame));
+  for (const Layer one : layers()) paths.push_back(layer(frame, one));
+  if (has_graded()) paths.push_back(graded(frame));
+  return paths;
+}
 
 fs::path FrameFolder::graded(int frame) const {
   const GradedFormat format = show_.output.graded.value_or(GradedFormat{});
@@ -117,14 +134,18 @@ std::vector<ExpectedFile> FrameFolder::files(const std::vector<int>& frames, con
                                              FrameFiles which) const {
   std::vector<ExpectedFile> files;
   files.reserve(2 * frames.size());
-  const auto add = [&](int frame, fs::path path, std::string key) {
+  const auto add = [&](int frame, fs::path path, std::string key, bool is_layer = false) {
     std::string name = path.lexically_relative(folder_).string();
-    files.push_back({frame, std::move(path), std::move(name), wanted(std::move(key))});
+    files.push_back({frame, std::move(path), std::move(name), wanted(std::move(key)), is_layer});
   };
   for (const int frame : frames) {
     const FrameState state = frame_state(show_, frame);
     const std::string key = keys.scene(state);
-    if (has_linear() && which == FrameFiles::kAll) add(frame, linear(frame), key);
+    if (has_linear() && which == FrameFiles::kAll) {
+      add(frame, linear(frame), key);
+      for (const Layer one : layers())
+        add(frame, layer(frame, one), FrameKeys::layer(key, one), true);
+    }
     if (has_graded()) add(frame, graded(frame), keys.graded(key, state));
   }
   return files;
@@ -184,7 +205,7 @@ void FrameFolder::check_owner() const {
 
 int FrameFolder::frames_there() const {
   int count = 0;
-  for (const char* kind : {kLinear, kGraded})
+  for (const char* kind : {kLinear, kGraded, kLayerFiles})
     for_each_file(folder_ / kind,
                   [&](const fs::path& file) { count += frame_of(file).has_value(); });
   return count;
@@ -193,28 +214,23 @@ int FrameFolder::frames_there() const {
 std::vector<std::string> FrameFolder::foreign_files() const {
   std::vector<std::string> found;
   const int count = frame_count(show_);
-  const auto look = [&](const char* kind, const auto& path_of_frame) {
+  for (const char* kind : {kLinear, kGraded, kLayerFiles})
     for_each_file(folder_ / kind, [&](const fs::path& file) {
       const auto frame = frame_of(file);
-      if (!frame || *frame >= count || file != path_of_frame(*frame))
+      const auto ours = frame && *frame < count ? paths(*frame) : std::vector<fs::path>{};
+      if (std::ranges::find(ours, file) == ours.end())
         found.push_back(file.lexically_relative(folder_).string());
     });
-  };
-  look(kLinear, [this](int frame) { return has_linear() ? linear(frame) : fs::path(); });
-  look(kGraded, [this](int frame) { return has_graded() ? graded(frame) : fs::path(); });
   std::sort(found.begin(), found.end());
   return found;
 }
 
 void FrameFolder::prepare(const std::vector<int>& frames, bool for_lens_maps) const {
-  const auto make = [&](auto path_of_frame) {
-    std::set<fs::path> folders;
-    for (const int frame : frames) folders.insert((this->*path_of_frame)(frame).parent_path());
-    for (const fs::path& folder : folders) make_folder(folder);
-  };
-  if (for_lens_maps) make(&FrameFolder::lens);
-  if (!for_lens_maps && has_linear()) make(&FrameFolder::linear);
-  if (!for_lens_maps && has_graded()) make(&FrameFolder::graded);
+  std::set<fs::path> folders;
+  for (const int frame : frames)
+    for (const fs::path& file : for_lens_maps ? std::vector{lens(frame)} : paths(frame))
+      folders.insert(file.parent_path());
+  for (const fs::path& folder : folders) make_folder(folder);
   sweep_temporaries(folder_);
 }
 

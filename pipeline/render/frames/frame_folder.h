@@ -19,6 +19,7 @@ struct ExpectedFile {
   std::filesystem::path path;
   std::string name;  // below the folder of the frames
   WantedFrame wanted;
+  bool is_layer = false;  // and may well be black
 
   bool is_linear() const { return path.extension() == ".exr"; }
 };
@@ -38,10 +39,15 @@ class FrameFolder {
   // those ask for folders, the file is linear/NAME_00000-09999/NAME_00000.exr.
   std::filesystem::path linear(int frame) const;
   std::filesystem::path graded(int frame) const;
-  // This is lens/NAME_00000.exr, likewise.
+  // These are lens/NAME_00000.exr and layers/LAYER/NAME_00000.exr, likewise.
   std::filesystem::path lens(int frame) const;
+  std::filesystem::path layer(int frame, Layer layer) const;
+  // Returns all files of a frame but its lens map.
+  std::vector<std::filesystem::path> paths(int frame) const;
   bool has_linear() const { return show_.output.linear.has_value(); }
   bool has_graded() const { return show_.output.graded.has_value(); }
+  // Returns the layers that have files of their own.
+  std::vector<Layer> layers() const;
 
   // Returns what the file of the frame with this key has to be.
   WantedFrame wanted(std::string key) const;
@@ -72,7 +78,7 @@ class FrameFolder {
   std::filesystem::path record_path() const;
   std::string record() const;
   int frames_there() const;
-  std::filesystem::path path_of(const char* kind, int frame, const char* extension) const;
+  std::filesystem::path path_of(const std::string& kind, int frame, const char* extension) const;
   std::optional<int> frame_of(const std::filesystem::path& file) const;
 
   std::filesystem::path folder_;

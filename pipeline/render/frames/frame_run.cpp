@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -139,7 +140,10 @@ class Run {
   // Says whether the frame can be graded from its scene-linear file.
   bool has_good_linear(int number, const std::string& key) const {
     return (folder_.has_linear() || !run_.render) &&
-           is_good(folder_.linear(number), key, run_.render);
+           is_good(folder_.linear(number), key, run_.render) &&
+           (!run_.render || std::ranges::all_of(folder_.layers(), [&](Layer layer) {
+             return is_good(folder_.layer(number, layer), FrameKeys::layer(key, layer), true);
+           }));
   }
 
   // Another run may yet render the frames that are missing, so they are worth trying again later.
@@ -171,8 +175,8 @@ class Run {
 
   // Writes the files that are asked for, side by side, so that one is packed while the other waits
   // for the disk.
-  void write(const FrameState& state, const std::string& key, const RenderedFrame& frame,
-             bool linear, bool graded, double render_s) {
+  void write(const FrameState& state, const std::string& key, RenderedFrame& frame, bool linear,
+             bool graded, double render_s) {
     const StopWatch all;
     double linear_s = 0, graded_s = 0;
     std::atomic<unsigned short> brightest{0};
@@ -180,8 +184,12 @@ class Run {
     if (linear)
       other = std::async(std::launch::async, [&] {
         const StopWatch watch;
-        write_linear(folder_.linear(state.frame), run_.show, frame,
-                     frame_info(run_.show, keys().show(), state, state.observer, key));
+        FrameInfo info = frame_info(run_.show, keys().show(), state, state.observer, key);
+        write_linear(folder_.linear(state.frame), run_.show, frame, info);
+        for (const Layer layer : folder_.layers()) {
+          info.key = FrameKeys::layer(key, layer);
+          write_layer_of(folder_.layer(state.frame, layer), run_.show, layer, frame, info);
+        }
         linear_s = watch.seconds();
       });
     if (graded) {
@@ -198,9 +206,15 @@ class Run {
     }
     if (other.valid()) other.get();
     const double took_s = render_s + all.seconds();
-    if (linear && manifest_.is_on())
+    if (linear && manifest_.is_on()) {
       manifest_.made(state.frame, folder_.linear(state.frame), took_s,
                      brightest_value(frame.half.picture));
+      for (const Layer layer : folder_.layers())
+        manifest_.made(state.frame, folder_.layer(state.frame, layer), took_s,
+                       brightest_value(RenderedFrame::keeps_floats(run_.show)
+                                           ? half_frame(frame.full.find(layer)->light)
+                                           : frame.half.find(layer)->light));
+    }
     constexpr double kWhite = 65535;
     if (graded)
       manifest_.made(state.frame, folder_.graded(state.frame), took_s, brightest / kWhite);
@@ -282,6 +296,12 @@ FrameInfo frame_info(const Show& show, const std::string& digest, const FrameSta
 
 GradedInfo graded_info(const Show& show, const Projection& projection, int frame,
                        const Grader& grader, const std::string& key) {
+  OpaqueColumns opaque;
+  if (show.output.graded && show.output.graded->alpha)
+    opaque = [projection](int row) {
+      const ColumnRange inside = inside_columns(projection, row);
+      return std::pair(inside.first, inside.last + 1);
+    };
   return {.key = key,
           .title = show.title,
           .frame = frame,
@@ -289,7 +309,8 @@ GradedInfo graded_info(const Show& show, const Projection& projection, int frame
           .view = grader.view(),
           .software = kSoftware,
           .projection = std::string(projection_name(projection)),
-          .colour = grader.colour()};
+          .colour = grader.colour(),
+          .opaque = opaque};
 }
 
 std::vector<int> frames_to_make(const FrameRun& run) { return Run(run).survey(); }

@@ -252,9 +252,11 @@ constexpr std::string_view kRows = R"(
 ## output
 | `linear` | `half`, `float` or `none`: scene-linear OpenEXR, of 16-bit floats or of 32 bits, twice the size, for compositing: bright stars beyond 65504 keep their light and dim ones their digits. A change from one to the other makes all frames again | [`half`] |
 | `layers` | a list of any of `sky`, `stars`, `disc`, `bodies` and `titles`: these parts of the light, too, in the scene-linear files, as [compositing.md](compositing.md) says | none |
+| `layer_files` | `true` or `false`: whether each layer has a file of its own, `layers/disc/NAME_00000.exr`, with channels `R`, `G`, `B` and, where it has one, `A` | [`false`] |
 | `data` | a list of any of `lens`, `mattes` and `cryptomatte`: numbers about each pixel, as channels of 32 bits in the scene-linear files, as [compositing.md](compositing.md) says | none |
 | `compression` | `zip`, `zips`, `piz` or `none`: of the scene-linear files, all without loss: blocks of 16 rows, single rows, or wavelets, which are smaller for noise and three times slower to read | [`zip`] |
 | `graded` | `png16`, `png8`, `jpeg`, `tiff16`, `tiff8`, `png`, `tiff` or `none`: display-ready files; those without a number have 16 bits | [`png16`] |
+| `graded_alpha` | `true` or `false`: whether PNG and TIFF have an alpha, white where the projection shows anything, as inside a dome's circle, and 0 elsewhere | [`false`] |
 | `quality` | 1 to 100: of a JPEG | [95] |
 | `name` | what the files are called before `_00000`, up to 200 bytes | the show's file name |
 | `start` | 0 to 1e9: the number of frame 0 | [0] |

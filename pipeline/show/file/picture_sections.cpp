@@ -80,14 +80,19 @@ std::optional<FrameState> frame_within(const Show& show) {
 
 // ---- output ----
 
-// Reads the quality, which only JPEGs have.
-void read_quality(const Section& s, std::optional<GradedFormat>& graded) {
+// Reads the quality, which only JPEGs have, and the alpha, which they have not.
+void read_graded_details(const Section& s, std::optional<GradedFormat>& graded) {
   const bool jpeg = graded && graded->kind == GradedKind::kJpeg;
   const int quality = s.whole("quality");
   if (jpeg)
     graded->quality = quality;
   else if (const Item* item = s.find("quality"))
     item->fail("is that of a JPEG; say graded: jpeg, or leave it out");
+  const bool alpha = s.flag("graded_alpha");
+  if (alpha && (jpeg || !graded))
+    s.find("graded_alpha")->fail("is for PNG and TIFF; say graded: png16, or leave it out");
+  else if (graded)
+    graded->alpha = alpha;
 }
 
 // Reads the format of the scene-linear files, or returns nothing if there are to be none.
@@ -230,6 +235,9 @@ Output read_output(const Section& show) {
   Output output;
   output.linear = read_linear(s);
   output.layers = read_layers(s, output.linear.has_value());
+  output.layer_files = s.flag("layer_files");
+  if (output.layer_files && output.layers.empty())
+    s.find("layer_files")->fail("is for layers, of which none are asked for");
   output.data = read_data(s, output.linear.has_value());
   output.graded = s.word<std::optional<GradedFormat>>("graded", {{{kPng16}},
                                                                  {{kPng8}},
@@ -239,7 +247,7 @@ Output read_output(const Section& show) {
                                                                  {{kPng16}},
                                                                  {{kTiff16}},
                                                                  std::nullopt});
-  read_quality(s, output.graded);
+  read_graded_details(s, output.graded);
   output.names = {read_name(s), s.whole("start"), s.whole("digits"), s.whole("per_folder", 0)};
   output.owner = s.text("owner");
   // Both are missing only where both keys say none, so that `graded` is there to be blamed.

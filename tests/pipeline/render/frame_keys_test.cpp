@@ -139,7 +139,8 @@ TEST(FrameKeys, KnowTheLayersOfTheirFiles) {
   two.output.layers = {Layer::kSky, Layer::kStars};
   expect_other_keys(
       two, {[](Show& s) { s.output.layers.clear(); }, [](Show& s) { s.output.layers.pop_back(); },
-            [](Show& s) { s.output.layers.back() = Layer::kDisc; }});
+            [](Show& s) { s.output.layers.back() = Layer::kDisc; },
+            [](Show& s) { s.output.layer_files = true; }});
 }
 
 // Without a pattern the disc looks the same at all times.
