@@ -61,6 +61,7 @@ void FrameKeys::add_sky(Digest& digest, const RegionSky& sky) {
   add_background(digest, sky.background);
   digest.add(sky.stars ? "stars" : "no stars");
   if (!sky.stars) return;
+  if (const auto year = sky.stars->planets_year) digest.add("planets").add(*year);
   stamp(sky.stars->catalogue);
   // The header of a binary catalogue has a digest of its content, so the rest need not be read.
   if (const auto print = star_file_fingerprint(sky.stars->catalogue))

@@ -65,7 +65,7 @@ std::vector<StarAtPixel> PixelProbe::stars() const {
     const FrameSettings::Sky& settings = state_.settings.sky[sky];
     const double gain = settings.star_gain / default_star_gain(show_.point_spread);
     const StarCatalogue catalogue =
-        read_star_catalogue(field->catalogue, settings.max_magnitude, show_.star_epoch);
+        read_star_field(*field, settings.max_magnitude, show_.star_epoch);
     for (const Star& star : catalogue.stars) {
       const double v = star.v_magnitude, drawn = gain * part_within_limit(settings, v);
       if (!(drawn > 0)) break;  // those that follow are fainter

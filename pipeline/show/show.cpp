@@ -3,7 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/sources/stars/solar_system.h"
+
 namespace domefall {
+
+StarCatalogue read_star_field(const StarField& field, double max_magnitude, double epoch,
+                              std::size_t whole) {
+  StarCatalogue stars = read_star_catalogue(field.catalogue, max_magnitude, epoch, whole);
+  if (!field.planets_year) return stars;
+  const StarCatalogue planets = planets_as_stars(*field.planets_year);
+  for (const Star& planet : planets.stars)
+    if (planet.v_magnitude <= max_magnitude) stars.stars.push_back(planet);
+  sort_by_magnitude(stars.stars);
+  stars.names.insert(stars.names.end(), planets.names.begin(), planets.names.end());
+  return stars;
+}
 
 double value_at(const Segment& segment, Channel channel, double t, double constant) {
   const std::optional<Curve>& curve = segment.curves[channel];

@@ -149,6 +149,7 @@ struct Segment {
 struct StarField {
   std::filesystem::path catalogue;
   double max_magnitude = 9;
+  std::optional<double> planets_year{};  // the planets are among the stars, where they are then
 
   bool operator==(const StarField&) const = default;
 };
@@ -327,6 +328,11 @@ struct Show {
 };
 
 inline constexpr int kMostFrames = 10'000'000;
+
+// Reads the stars of a field of V <= max_magnitude, and the planets if it has them.  Arguments and
+// errors are those of read_star_catalogue.
+StarCatalogue read_star_field(const StarField& field, double max_magnitude, double epoch,
+                              std::size_t whole = kAllWhole);
 
 inline const Segment& segment_of(const Show& show, int k) {
   return show.timeline[static_cast<std::size_t>(k)];

@@ -72,7 +72,7 @@ void AxisStars::read(SkyRegion region) {
   const double limit =
       std::min(kBlindingMagnitude + magnitudes(most),
                largest_value(show_, max_magnitude_channel(region), field->max_magnitude));
-  StarCatalogue catalogue = read_star_catalogue(field->catalogue, limit, show_.star_epoch);
+  StarCatalogue catalogue = read_star_field(*field, limit, show_.star_epoch);
   const SceneStars stars(catalogue.stars);
   std::vector<Class>& classes = stars_[region];
   for (std::size_t k = 0; k < stars.size(); ++k) {

@@ -89,8 +89,7 @@ const std::vector<StarLabels::NamedStarOfSky>& StarLabels::stars_of(SkyRegion sk
   named.emplace();
   const auto& field = show_.sky[sky].stars;
   if (!field) return *named;
-  const StarCatalogue catalogue =
-      read_star_catalogue(field->catalogue, kFaintestNamed, show_.star_epoch);
+  const StarCatalogue catalogue = read_star_field(*field, kFaintestNamed, show_.star_epoch);
   const auto key = [](const SkyDirection& d) { return std::tuple(d.v.x, d.v.y, d.v.z); };
   std::map<std::tuple<double, double, double>, std::string> names;
   for (const NamedStar& name : catalogue.names) names.emplace(key(name.direction), name.name);

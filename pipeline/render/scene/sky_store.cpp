@@ -33,7 +33,8 @@ std::filesystem::path map_file_of(const std::optional<SkyBackground>& background
 }
 
 bool same_stars(const RegionSky& a, const RegionSky& b) {
-  return a.stars && b.stars && a.stars->catalogue == b.stars->catalogue;
+  return a.stars && b.stars && a.stars->catalogue == b.stars->catalogue &&
+         a.stars->planets_year == b.stars->planets_year;
 }
 
 }  // namespace
@@ -78,7 +79,7 @@ void SkyStore::load_stars(SkyRegion which, Kept& kept) {
   // Where the limit changes, a star that stands for others would come and go with the light of all.
   const std::size_t whole = limit.changes ? kAllWhole : detail_.whole_stars;
   kept.sky.stars = std::make_shared<const SceneStars>(
-      read_star_catalogue(own.stars->catalogue, limit.faintest, show_.star_epoch, whole).stars);
+      read_star_field(*own.stars, limit.faintest, show_.star_epoch, whole).stars);
 }
 
 SkyStore::Kept& SkyStore::kept_sky(SkyRegion which,

@@ -14,7 +14,7 @@ constexpr std::string_view kRows = R"(
 | `frames_per_second` | 1 to 240 frames per second: also as a fraction such as 24000/1001; 23.98, 29.97 and the like stand for n 1000/1001 | [30] |
 | `size` | for a dome `1k`, `2k`, `4k`, `8k` or 16 to 16384 pixels; for a flat picture `[width, height]`, each 16 to 16384; for others see [projections](#projections) | [`4k`], flat [`[1920, 1080]`] |
 | `black_hole`, `camera`, `effects`, `sky`, `stars`, `disc`, `bodies`, `exposure`, `grade`, `dome`, `output` | sections, below | |
-| `begins_year` | -1e6 to 1e6 years: the year in which the show begins, for bodies given by their [elements](#orbits-by-elements) and for the [counter](#counters) `{year}` | |
+| `begins_year` | -1e6 to 1e6 years: the year in which the show begins, for [planets](#planets-sun-and-moon), bodies given by their [elements](#orbits-by-elements) and the [counter](#counters) `{year}` | |
 | `cameras` | further cameras by name, [below](#cameras) | |
 | `keyframes` | what changes during the show, [below](#keyframes) | |
 | `titles` | texts on the dome, [below](#titles) | |
@@ -153,6 +153,7 @@ constexpr std::string_view kRows = R"(
 ## sky.law
 | `blueshift_power` | 0 to 10: a panorama grows brighter by (1 + z) to minus this power where its light is shifted to the blue | [2] |
 | `epoch` | -10000 to 30000 Julian years: stars with a proper motion stand where they stand then, such as 2026.5 | [2000]: as catalogued |
+| `planets` | `true` or `false`: whether Mercury to Neptune are drawn among the stars of `region_I`, as bright as they are at `begins_year` and [in their places](#planets-sun-and-moon) | [`false`] |
 ## sky.gain
 | `gain` | 0 to 1e6: a factor on the background; 1 is physical | [1] |
 ## sky.stars

@@ -1,5 +1,7 @@
 #include "pipeline/show/file/lookup.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -172,10 +174,25 @@ bool Lookup::read_places(const Item& item, int table) {
   return true;
 }
 
-// Returns the place of a name, or nothing if no table has it or a table cannot be read.  The stars
-// come first, and SkyPlaces finds what was added first, so that a star takes precedence over an
-// object of its name.
+// Returns the place of a body in the show's year, or reports that it is not known then.
+std::optional<SkyDirection> Lookup::solar_place(const Item& item, SolarBody body) const {
+  const std::string name(kSolarBodyNames[static_cast<std::size_t>(body)]);
+  if (!year_) {
+    item.fail("names " + name + ", which needs the show's begins_year, since it moves on the sky");
+    return std::nullopt;
+  }
+  const YearSpan known = years_of(body);
+  if (*year_ >= known.first && *year_ <= known.last) return seen_from_earth(body, *year_);
+  item.fail(fmt::format("names {}, whose place is known from {} to {}, but begins_year is {}", name,
+                        known.first, known.last, *year_));
+  return std::nullopt;
+}
+
+// Returns the place of a name, or nothing if no table has it or a table cannot be read.  Planets
+// need no table.  The stars come before other objects, and SkyPlaces finds what was added first, so
+// that a star takes precedence over an object of its name.
 std::optional<SkyDirection> Lookup::find_place(const Item& item, const std::string& name) {
+  if (const auto body = solar_body(name)) return solar_place(item, *body);
   constexpr int kTables = 2;
   auto found = places_.find(name);
   for (; !found && tables_read_ < kTables; found = places_.find(name))
@@ -193,14 +210,16 @@ std::optional<SkyDirection> Lookup::place(const Item& item,
   const std::size_t reported = item.problems->count();
   if (auto found = find_place(item, *name)) return found;
   if (item.problems->count() > reported) return std::nullopt;
-  // The words that the key takes are few, and so they come before thousands of names.  A text of 60
-  // characters is no misspelt name, and its distance to each of them would take long.
+  // The words that the key takes are few, and so are planets, and both come before thousands of
+  // names.  A text of 60 characters is no misspelt name, and its distance to each of them would
+  // take long.
   std::string near(nearest_word(*name, words));
+  if (near.empty()) near = nearest_word(*name, kSolarBodyNames);
   if (near.empty() && name->size() < 60) near = places_.nearest(*name);
   const std::string odd = odd_character(*name);
   item.fail((words.empty() ? "" : "must be " + listed(words) + ", or a place on the sky; it ") +
             "names '" + shown(*name) +
-            "', which is no star, constellation or object that Domefall knows" +
+            "', which is no star, planet, constellation or object that Domefall knows" +
             (odd.empty() ? "" : "; it " + odd) +
             (near.empty() ? "" : "; did you mean " + near + "?"));
   return std::nullopt;

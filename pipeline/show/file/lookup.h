@@ -11,6 +11,7 @@
 
 #include "pipeline/show/file/item.h"
 #include "pipeline/show/show.h"
+#include "pipeline/sources/stars/solar_system.h"
 #include "pipeline/sources/stars/star_catalogue.h"
 
 namespace domefall {
@@ -69,10 +70,14 @@ class Lookup {
   // shipped files.  If it is in none of them, the one that comes with Domefall stands in.
   std::optional<std::filesystem::path> deepest_stars(const Item& item) const;
 
-  // Returns the place of a name: that of a star of the shipped catalogue, or else that of an entry
-  // of the shipped table of places.  The catalogue is read when the first place is named, and the
-  // table when a name is no star's.  `words` are what the item could have been besides, for the
-  // message about an unknown name.
+  // Planets, Sun and Moon have the places of this year, the show's begins_year.  Without a year
+  // their names are mistakes.
+  void set_year(std::optional<double> year) { year_ = year; }
+
+  // Returns the place of a name: that of a planet, the Sun or the Moon, of a star of the shipped
+  // catalogue, or else of an entry of the shipped table of places.  The catalogue is read when the
+  // first place is named that is no planet, and the table when a name is no star's.  `words` are
+  // what the item could have been besides, for the message about an unknown name.
   std::optional<SkyDirection> place(const Item& item, std::span<const std::string_view> words = {});
 
   // Returns the figure of a constellation by its Latin name or its abbreviation.
@@ -80,10 +85,12 @@ class Lookup {
 
  private:
   std::optional<SkyDirection> find_place(const Item& item, const std::string& name);
+  std::optional<SkyDirection> solar_place(const Item& item, SolarBody body) const;
   // Reads the stars (0) or the other places (1).  Reports a file that is missing or damaged.
   bool read_places(const Item& item, int table);
 
   std::filesystem::path folder_;
+  std::optional<double> year_;
   SkyPlaces places_;
   int tables_read_ = 0;
   std::map<std::string, SkyFigure> figures_;  // empty until the first is asked for

@@ -62,12 +62,13 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   if (section.find("title")) show.title = section.text("title");
   read_frame_rate(section, show);
   // The order matters: bodies need the hole, cameras the bodies, and segments all that a show
-  // gives.
+  // gives.  Any place may be a planet's, which needs the year.
+  show.begins_year = section.given("begins_year");
+  lookup.set_year(show.begins_year);
   show.markers = read_markers(section, lookup);
   show.fades = read_fades(section);
   show.audio = read_audio(section, lookup);
   read_black_hole(section, lookup, show);
-  show.begins_year = section.given("begins_year");
   show.bodies = read_bodies(section, show, lookup);
   const ShowCamera camera = read_show_camera(section, show, lookup);
   show.projection = camera.projection;

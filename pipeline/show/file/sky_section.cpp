@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <stdexcept>
 #include <system_error>
@@ -6,6 +8,7 @@
 #include "pipeline/show/file/sections.h"
 #include "pipeline/sources/sky/panorama.h"
 #include "pipeline/sources/sky/sky_file.h"
+#include "pipeline/sources/stars/solar_system.h"
 #include "pipeline/sources/stars/star_catalogue.h"
 
 namespace domefall {
@@ -207,6 +210,22 @@ RegionSky default_sky(const Item& root, const Section& own, const Lookup& lookup
   return sky;
 }
 
+// Puts the planets among the stars of region I.
+void read_planets(const Item& item, Show& show) {
+  const YearSpan known = years_of(SolarBody::kSun);
+  auto& stars = show.sky[SkyRegion::kI].stars;
+  if (!show.begins_year) {
+    item.fail("needs the show's begins_year, the year in which it begins");
+  } else if (*show.begins_year < known.first || *show.begins_year > known.last) {
+    item.fail(fmt::format("needs a begins_year from {} to {}, got {}", known.first, known.last,
+                          *show.begins_year));
+  } else if (!stars) {
+    item.fail("needs stars in region_I, among which they are drawn");
+  } else {
+    stars->planets_year = show.begins_year;
+  }
+}
+
 }  // namespace
 
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show) {
@@ -227,6 +246,7 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
     read_region_four(*four, lookup, show.sky[SkyRegion::kIV]);
   show.panorama_shift.blueshift_power = sky.number("blueshift_power");
   show.star_epoch = sky.number("epoch");
+  if (sky.flag("planets")) read_planets(*sky.find("planets"), show);
 }
 
 void read_segment_background(const Section& keys, SkyRegion region, const Lookup& lookup,

@@ -51,6 +51,13 @@ TEST(FrameKeys, KnowHowFastTheSkyTurns) {
   EXPECT_NE(key_of(show), key_of(faster));
 }
 
+TEST(FrameKeys, KnowThePlanetsAmongTheStars) {
+  Show show = at_ten();
+  show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "stars_to_9.stars", 6.5};
+  expect_other_keys(show, {[](Show& s) { s.sky[SkyRegion::kI].stars->planets_year = 2020; },
+                           [](Show& s) { s.sky[SkyRegion::kI].stars->planets_year = 2021; }});
+}
+
 TEST(FrameKeys, KnowHowStarsAreDrawn) {
   Show show = at_ten();
   expect_other_keys(

@@ -9,6 +9,7 @@
 
 #include "pipeline/render/scene/exposure.h"
 #include "pipeline/sources/disc/disc_light.h"
+#include "pipeline/sources/stars/solar_system.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
@@ -87,6 +88,22 @@ TEST(PixelProbe, TellsStarsBehindADiscAsFaintAsTheyAre) {
     }
   EXPECT_GT(behind, 3);
   EXPECT_GT(beside, 3);
+}
+
+// A planet is seen where the camera looks for it, by its name, and lights its pixel.
+TEST(PixelProbe, TellsThePlanets) {
+  Show show = starry(show_of(StaticObserver{}, Stereographic{64, 64, 20 * kDegree}));
+  show.timeline[0].camera.attitude = LookAtSky{seen_from_earth(SolarBody::kJupiter, 2026.9)};
+  FloatImage without, with;
+  Renderer(show, 1).render(frame_state(show, 0), without);
+  show.sky[SkyRegion::kI].stars->planets_year = 2026.9;
+  const FrameState state = frame_state(show, 0);
+  Renderer(show, 1).render(state, with);
+  EXPECT_GT(with.row(32)[3 * 32], 10 * without.row(32)[3 * 32]);
+  const auto stars = PixelProbe(show, state, {32.5, 32.5}).stars();
+  ASSERT_FALSE(stars.empty());
+  EXPECT_EQ(stars[0].names, std::vector<std::string>{"Jupiter"});
+  EXPECT_NEAR(stars[0].v, planet_magnitude(SolarBody::kJupiter, 2026.9), 1e-6);
 }
 
 TEST(PixelProbe, TellsTheTitlesThatCoverThePixel) {

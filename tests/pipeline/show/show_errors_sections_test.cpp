@@ -64,15 +64,15 @@ TEST_F(ShowErrorsInSections, Cameras) {
        "move; give the segment another camera.look_at"},
       {"camera: {look_at: Betelgeuze}",
        "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
-       "'Betelgeuze', which is no star, constellation or object that Domefall knows; did you mean "
-       "Betelgeuse?"},
+       "'Betelgeuze', which is no star, planet, constellation or object that Domefall knows; did "
+       "you mean Betelgeuse?"},
       {"camera: {look_at: Qwertyuiop}",
        "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
-       "'Qwertyuiop', which is no star, constellation or object that Domefall knows"},
+       "'Qwertyuiop', which is no star, planet, constellation or object that Domefall knows"},
       {"camera: {look_at: holes}",
        "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
-       "'holes', which is no star, constellation or object that Domefall knows; did you mean "
-       "hole?"},
+       "'holes', which is no star, planet, constellation or object that Domefall knows; did you "
+       "mean hole?"},
   });
   expect_complaints_behind_hole({
       {"timeline:\n  - duration_s: 1\n    trajectory: {type: static, r: 9}\n    camera: "
@@ -87,11 +87,11 @@ TEST_F(ShowErrorsInSections, Cameras) {
   expect_complaints({
       {kHole + "camera: {look_at: Orino}\n" + kShow.substr(kHole.size()),
        "2:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
-       "'Orino', which is no star, constellation or object that Domefall knows; did you mean "
-       "Orion?"},
+       "'Orino', which is no star, planet, constellation or object that Domefall knows; did you "
+       "mean Orion?"},
       {"black_hole: {mass_solar: 1, at: Adromeda Galaxy}\n" + kShow.substr(kHole.size()),
-       "1:33: black_hole.at names 'Adromeda Galaxy', which is no star, constellation or object "
-       "that Domefall knows; did you mean Andromeda Galaxy?"},
+       "1:33: black_hole.at names 'Adromeda Galaxy', which is no star, planet, constellation or "
+       "object that Domefall knows; did you mean Andromeda Galaxy?"},
   });
 }
 

@@ -105,8 +105,8 @@ TEST_F(ShowErrorsInTimelines, VelocitiesThatDoNotExist) {
        "place on the sky"},
       {"{type: velocity, r: 9, speed: 0.5, direction: inwards}",
        "3:79: direction must be inward, outward, forward, backward, north or south, or a place on "
-       "the sky; it names 'inwards', which is no star, constellation or object that Domefall "
-       "knows; did you mean inward?"},
+       "the sky; it names 'inwards', which is no star, planet, constellation or object that "
+       "Domefall knows; did you mean inward?"},
       {"{type: velocity, r: 9, speed: 0.5, direction: {radial: 0}}",
        "3:79: direction must not be the zero vector; give radial, theta or phi"},
       {"{type: velocity, r: 1.5, speed: 0.5, direction: inward}",

@@ -155,8 +155,8 @@ TEST_F(ShowErrorsInYaml, CharactersThatLookLikeOthersAreNamedWithTheirCode) {
        "not one of a to z; did you mean fisheye?"},
       {"camera: {look_at: \"Sirius\u00a0\"}",
        "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
-       "'Sirius\u00a0', which is no star, constellation or object that Domefall knows; it ends "
-       "with a no-break space (U+00A0), not a space; did you mean Sirius?"},
+       "'Sirius\u00a0', which is no star, planet, constellation or object that Domefall knows; it "
+       "ends with a no-break space (U+00A0), not a space; did you mean Sirius?"},
   });
   expect_complaints({
       {roll("\u20133"), degrees + "'\u20133', which begins with an en dash (U+2013), not a minus"},

@@ -1,4 +1,7 @@
 // Tests of the keys of a show file that say what its skies show, and of their defaults.
+#include <algorithm>
+
+#include "pipeline/sources/stars/solar_system.h"
 #include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
@@ -29,6 +32,55 @@ TEST_F(ShowSkyKeys, RegionThreeIsLikeRegionOneButForWhatItSays) {
   EXPECT_EQ(show.sky[SkyRegion::kIII].star_gain, 3);
   EXPECT_EQ(show.panorama_shift.blueshift_power, 3.5);
   EXPECT_EQ(show.star_epoch, 2026.5);
+}
+
+// Jupiter met Saturn on 21 December 2020 at RA 302.5, Dec -20.5.
+TEST_F(ShowSkyKeys, PlanetsAreInTheirPlacesOfTheYear) {
+  const std::string year = "begins_year: 2020.97266\n";
+  const Show show =
+      with(year + "camera: {look_at: JUPITER}\ntitles: [{text: a, place: {star: saturn}}]\n",
+           "{type: infall, from_r: 30}", "{mass_solar: 1, at: Moon}");
+  EXPECT_FALSE(show.sky[SkyRegion::kI].stars->planets_year);
+  const auto& camera = std::get<LookAtSky>(show.timeline[0].camera.attitude);
+  expect_near(camera.target.v, place(302.5, -20.5).v, 0.003);
+  expect_near(show.titles[0].place->v, camera.target.v, 0.003);
+  EXPECT_NE(show.titles[0].place->v, camera.target.v);
+  expect_near(show.hole_at.v, seen_from_earth(SolarBody::kMoon, 2020.97266).v);
+  const Show drawn = with(year + "sky: {planets: true}\n");
+  EXPECT_EQ(drawn.sky[SkyRegion::kI].stars->planets_year, 2020.97266);
+  EXPECT_FALSE(drawn.sky[SkyRegion::kIII].stars->planets_year);
+}
+
+TEST_F(ShowSkyKeys, PlanetsAreStarsAmongStarsToTheLimit) {
+  const StarField field{asset("stars_to_9.stars"), 7, 2020.97266};
+  const StarCatalogue stars = read_star_field(field, field.max_magnitude, kCatalogueEpoch);
+  ASSERT_EQ(stars.stars.size(), 3U + 6U);  // without Neptune
+  EXPECT_TRUE(std::ranges::is_sorted(stars.stars, {}, &Star::v_magnitude));
+  EXPECT_EQ(std::ranges::count(stars.names, "Jupiter", &NamedStar::name), 1);
+}
+
+TEST_F(ShowMistakes, OfPlanetsAreTold) {
+  expect_complaints_of_lines({
+      {"camera: {look_at: Mars}",
+       "3:19: camera.look_at names Mars, which needs the show's begins_year, since it moves on the "
+       "sky"},
+      {"camera: {look_at: Mars}\nbegins_year: 3000.5",
+       "3:19: camera.look_at names Mars, whose place is known from -2999 to 3000, but begins_year "
+       "is 3000.5"},
+      {"titles: [{text: a, place: {star: moon}}]\nbegins_year: 1054",
+       "3:34: titles[1].place.star names Moon, whose place is known from 1800 to 2050, but "
+       "begins_year is 1054"},
+      {"camera: {look_at: Jupitre}\nbegins_year: 2020",
+       "3:19: camera.look_at must be hole, motion or outward, or a place on the sky; it names "
+       "'Jupitre', which is no star, planet, constellation or object that Domefall knows; did you "
+       "mean Jupiter?"},
+      {"sky: {planets: true}",
+       "3:16: sky.planets needs the show's begins_year, the year in which it begins"},
+      {"sky: {planets: true}\nbegins_year: -3001",
+       "3:16: sky.planets needs a begins_year from -2999 to 3000, got -3001"},
+      {"sky: {planets: true, region_I: {stars: none}}\nbegins_year: 2020",
+       "3:16: sky.planets needs stars in region_I, among which they are drawn"},
+  });
 }
 
 TEST_F(ShowSkyKeys, ASegmentSaysTheBlackOfItsSky) {
