@@ -115,6 +115,14 @@ tells '^to render +not measured: to render the show is almost as quick$'
 exits 0 "$DOMEFALL" check short.yaml --json
 python3 -c 'import json; assert json.load(open("stdout"))["render"] is None'
 
+# Planets among the stars are told with their year.
+printf 'size: 64\nframes_per_second: 1\nbegins_year: 2020.5\nsky: {planets: true}\n%s\n' \
+  'timeline: [{duration_s: 2}]' >planets.yaml
+exits 0 "$DOMEFALL" check planets.yaml
+tells '^sky .* 131,085 stars to V = 9, and the planets of 2020\.5$'
+exits 0 "$DOMEFALL" check planets.yaml --json
+python3 -c 'import json; assert json.load(open("stdout"))["skies"][0]["planets_year"] == 2020.5'
+
 # Files that are there but damaged are told.
 printf 'not a picture' >broken.tif
 printf 'sky: {region_I: {background: broken.tif}}\ntimeline: [{duration_s: 2}]\n' >panorama.yaml

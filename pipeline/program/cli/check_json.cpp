@@ -145,7 +145,8 @@ Json json_of(const CheckedSky& sky) {
           {"map_fainter_than", rounded_json(s.map_fainter_than)},
           {"catalogue", s.catalogue.empty() ? Json() : Json(s.catalogue)},
           {"stars", s.stars},
-          {"faintest", s.stars > 0 ? rounded_json(s.faintest) : Json()}};
+          {"faintest", s.stars > 0 ? rounded_json(s.faintest) : Json()},
+          {"planets_year", rounded_json(s.planets_year)}};
 }
 
 // Adds what holds of the whole show, after its segments and joints.

@@ -74,8 +74,7 @@ class Page {
       if (!sky.catalogue.empty())
         add(text, fmt::format("{}, {} to V = {:.3g}", sky.catalogue, counted(sky.stars, "star"),
                               sky.faintest));
-      if (const auto& stars = show_.sky[sky.region].stars; stars && stars->planets_year)
-        text += fmt::format(", and the planets of {}", *stars->planets_year);
+      if (sky.planets_year) text += fmt::format(", and the planets of {}", *sky.planets_year);
       if (text.empty()) continue;
       const bool is_first = sky.region == SkyRegion::kI;
       line(is_first ? "sky" : fmt::format("region {}", name_of(sky.region)),

@@ -112,6 +112,7 @@ SkySources sources_of(const Show& show, const ShownSky& sky, Magnitudes& magnitu
   const auto& stars = show.sky[sky.region].stars;
   if (!stars) return found;
   found.catalogue = stars->catalogue.filename().string();
+  found.planets_year = stars->planets_year;
   const std::vector<float>& all = magnitudes.of(stars->catalogue);
   const auto end = std::upper_bound(all.begin(), all.end(), sky.max_magnitude);
   found.stars = static_cast<std::size_t>(end - all.begin());

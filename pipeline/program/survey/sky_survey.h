@@ -24,6 +24,7 @@ struct SkySources {
   std::string catalogue;                   // name of the file; empty if there is none
   std::size_t stars = 0;                   // number of stars that are drawn
   double faintest = 0;                     // V of the faintest of them
+  std::optional<double> planets_year;      // the planets of this year are among them
   // This is the light of stars that are drawn although the map contains it, as a mean over the sky,
   // in stars of V = 10 per square degree.
   double twice = 0;
