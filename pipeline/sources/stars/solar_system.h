@@ -41,7 +41,7 @@ YearSpan years_of(SolarBody body);
 // planets and the Moon) at 4,000 instants from 1800 to 2050 and 12,000 beyond:
 //                Mercury Venus  Mars Jupiter Saturn Uranus Neptune  Sun  Moon
 //     1800-2050   0.015  0.03   0.06   0.18   0.23   0.04   0.02   0.01  0.08
-//     beyond      0.04   0.09   0.16   0.28   0.47   0.43   0.18   0.03
+//     beyond      0.04   0.09   0.16   0.29   0.47   0.43   0.18   0.03
 // From a place on the Earth's surface the Moon stands up to a degree away.
 SkyDirection seen_from_earth(SolarBody body, double year);
 
