@@ -45,7 +45,7 @@ OrbitCurve OrbitCurve::returning(const OrbitConstants& constants, double apoastr
   OrbitCurve c;
   c.kind_ = Kind::kReturning, c.constants_ = without_underflow(constants);
   c.far_ = apoastron, c.over_two_ = apoastron_over_two;
-  c.w_ = (1 - 2 / apoastron) / 4, c.excess_ = excess;
+  c.w_ = (apoastron - 6) / (4 * apoastron), c.excess_ = excess;
   return c;
 }
 
@@ -92,13 +92,13 @@ OrbitCurve::Point OrbitCurve::bound_at(double s) const {
 }
 
 // Here G = G(w_a) + L^2 (w - w_a)(2w + 4 w_a - 1) = G_least + 2 L^2 (w - w_m)^2 with
-// w_m = (1 - 2 w_a)/4.  The first is a sum of positive terms for r_a <= 6, and the second beyond.
+// w_m = (1 - 2 w_a)/4, which is w_a + (r_a - 6)/(4 r_a).  The first is a sum of positive terms for r_a <= 6, and the second beyond.
 OrbitCurve::Point OrbitCurve::returning_at(double s) const {
   const double sine = std::sinh(s), cosine = std::cosh(s), wa = 1 / far_;
   const double r = far_ / square(cosine), l2 = square(constants_.angular_momentum);
-  const double fallen = wa * square(sine), w = wa + fallen;
+  const double fallen = wa * square(sine);
   const double g = far_ <= 6 ? excess_ + l2 * fallen * (2 * fallen + (6 - far_) / far_)
-                             : excess_ + 2 * l2 * square(w - w_);
+                             : excess_ + 2 * l2 * square(fallen - w_);
   const double root = std::sqrt(wa * g);
   return {r, -sine * root, 2 * r / (cosine * root)};
 }

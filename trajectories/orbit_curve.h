@@ -70,7 +70,7 @@ class OrbitCurve {
   OrbitConstants constants_;
   double near_ = 0, far_ = 0;  // the turning radii; near_ is r_c of the unturned
   double over_two_ = 0;
-  double w_ = 0;  // w1 of the scattered, w_m of the returning, 1/r_c of the unturned
+  double w_ = 0;  // w1 of the scattered, w_m - w_a of the returning, 1/r_c of the unturned
   double excess_ = 0;
 };
 

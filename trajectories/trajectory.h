@@ -14,6 +14,7 @@
 #include <variant>
 
 #include "trajectories/accelerated_path.h"
+#include "trajectories/braked_flight.h"
 #include "trajectories/circular_orbit.h"
 #include "trajectories/geodesic.h"
 #include "trajectories/given_velocity.h"
@@ -21,12 +22,13 @@
 #include "trajectories/orbit_point.h"
 #include "trajectories/radial_infall.h"
 #include "trajectories/speed_ramp.h"
+#include "trajectories/spiral.h"
 #include "trajectories/static_observer.h"
 
 namespace domefall {
 
 using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity,
-                                SpeedRamp, Geodesic, AcceleratedPath>;
+                                SpeedRamp, Geodesic, AcceleratedPath, Spiral, BrakedFlight>;
 
 // Returns the point of the orbit at proper time tau (units of M, or seconds in flat space) since
 // its start.  tau must be in (birth, lifetime), for a radial infall in [0, lifetime).

@@ -98,6 +98,13 @@ constexpr std::string_view kRows = R"(
 | `at_m` | -1e12 to 1e12: the observer's own time | required |
 | `r` | 1e-6 to 1e9: where it is then | required |
 | `azimuth_deg` | -1e9 to 1e9: where it is then | [0] |
+## spiral
+| `from_r` | above 3, at most 1e9: of the circular orbit on which it begins | required |
+| `turns` | 0.5 to 1000 revolutions: from the beginning to the horizon | [3] |
+## braked
+| `from_r` | above 2, at most 1e9: where it begins to brake | required |
+| `stop_r` | above 2, at most 1e9: where it comes to rest, and hovers from then on | required |
+| `speed` | 1e-6 to below 1 speed of light = 1: at `from_r`, against what is at rest there | sqrt(2/`from_r`), that of a fall from rest far away |
 ## static
 | `r` | above 2, at most 1e9: near a hole; not allowed in flat space | required |
 ## speed

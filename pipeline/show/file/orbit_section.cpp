@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <stdexcept>
 
 #include "pipeline/show/file/trajectory_section.h"
+#include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/bound_orbit.h"
 #include "trajectories/hyperbolic_orbit.h"
 #include "trajectories/infall.h"
@@ -34,7 +37,8 @@ void fail_impossible(const Section& s, const Item& asked, const std::string& mes
 
 // Returns what make() returns, or reports the error that it throws if the orbit does not exist.
 template <class Make>
-std::optional<Geodesic> made(const Section& s, const Item& asked, const Make& make) {
+auto made(const Section& s, const Item& asked, const Make& make)
+    -> std::optional<decltype(make())> {
   try {
     return make();
   } catch (const std::domain_error& error) {
@@ -246,6 +250,50 @@ std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage
   start.tau = orbit->time_at(kFallEnd, Leg::kOutward);
   if (std::isfinite(orbit->death())) start.to_r = kFallEnd;
   return timed(s, stage, *orbit, start, {mirrored});
+}
+
+// The keys of a spiral say all of it, so that a segment begins where it does.
+std::optional<TimedTrajectory> read_spiral(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "region", "spiral", "end", "rates", "pace"});
+  const bool mirrored = is_in_region_three(s);
+  const auto from_r = s.required(
+      "from_r", s.range("from_r").because(
+                    "at the light circle an orbit needs the speed of light, below it more"));
+  const double turns = s.number("turns");
+  if (!from_r) return std::nullopt;
+  const auto spiral = made(s, item, [&] { return Spiral(*from_r, turns); });
+  if (!spiral) return std::nullopt;
+  Defaults end;
+  end.to_r = kFallEnd;
+  const auto timing = read_end(s, stage, *spiral, 0, end);
+  if (!timing) return std::nullopt;
+  return TimedTrajectory{*spiral, *timing, {mirrored}};
+}
+
+std::optional<TimedTrajectory> read_braked(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "region", "braked", "end", "rates", "pace"});
+  const bool mirrored = is_in_region_three(s);
+  const auto radius = [&s](std::string_view key) {
+    return s.required(key, s.range(key).because("nothing rests at or inside the horizon"));
+  };
+  const auto from_r = radius("from_r"), stop_r = radius("stop_r");
+  const auto given = s.given("speed");
+  if (!from_r || !stop_r || (s.find("speed") && !given)) return std::nullopt;
+  if (*stop_r >= *from_r) {
+    const Item& item_of_stop = *s.find("stop_r");
+    item_of_stop.fail(fmt::format("must stay below from_r = {} (units of M), got {}",
+                                  short_number(*from_r), as_written(item_of_stop)));
+    return std::nullopt;
+  }
+  // Without a speed it goes on where what falls from rest far away passes from_r.
+  const double speed = given.value_or(Schwarzschild::free_fall_speed(*from_r));
+  const auto flight = made(s, item, [&] { return BrakedFlight(*from_r, *stop_r, speed); });
+  if (!flight) return std::nullopt;
+  Defaults end;
+  end.to_tau = flight->duration();
+  const auto timing = read_end(s, stage, *flight, 0, end);
+  if (!timing) return std::nullopt;
+  return TimedTrajectory{*flight, *timing, {mirrored}};
 }
 
 }  // namespace domefall

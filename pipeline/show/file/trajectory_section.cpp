@@ -205,6 +205,7 @@ constexpr std::array kTypes{
     Type{"parabolic", false, read_parabolic}, Type{"hyperbolic", false, read_hyperbolic},
     Type{"bound", false, read_bound},         Type{"infall", false, read_infall},
     Type{"thrown", false, read_thrown},       Type{"kruskal", false, read_kruskal},
+    Type{"spiral", false, read_spiral},       Type{"braked", false, read_braked},
     Type{"path", false, read_path},           Type{"velocity", true, read_velocity},
     Type{"body", false, read_with_body},      Type{"continue", true, read_continue}};
 

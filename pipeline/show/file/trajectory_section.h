@@ -109,6 +109,10 @@ std::optional<TimedTrajectory> read_curved_infall(const Item& item, const Stage&
 std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage, Lookup& lookup);
 std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage, Lookup& lookup);
 
+// Reads flights whose engines bring them from a circular orbit into a fall, and to a stop.
+std::optional<TimedTrajectory> read_spiral(const Item& item, const Stage& stage, Lookup& lookup);
+std::optional<TimedTrajectory> read_braked(const Item& item, const Stage& stage, Lookup& lookup);
+
 // Reads a path through keyframes in the show file, or through the rows of a CSV file.
 std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, Lookup& lookup);
 

@@ -93,6 +93,41 @@ TEST_F(ShowErrorsInOrbits, Throws) {
   });
 }
 
+TEST_F(ShowErrorsInOrbits, FlightsOfASpiralAndABrake) {
+  expect_complaints_of_trajectories({
+      {"{type: spiral}", "3:33: from_r is missing (units of M)"},
+      {"{type: spiral, from_r: 3}",
+       "3:56: from_r must exceed 3 (units of M), got 3: at the light circle an orbit needs the "
+       "speed of light, below it more"},
+      {"{type: spiral, from_r: 8, turns: 0.4}",
+       "3:66: turns must be at least 0.5 (revolutions), got 0.4"},
+      {"{type: spiral, from_r: 8, turns: 1001}",
+       "3:66: turns must be at most 1000 (revolutions), got 1001"},
+      {"{type: spiral, from_r: 8, to_r: 9}",
+       "3:65: to_r is not passed after the segment's beginning; it moves between r = 0 M and 8 M"},
+      {"{type: spiral, from_r: 8, from_leg: inward}",
+       "3:59: from_leg is an unknown key; did you mean from_r?"},
+      {"{type: spiral, from_r: 8, pace: log_r}",
+       "3:65: pace of 'log_r' needs an r that only falls or only rises in the segment; end it, or "
+       "begin it, where the orbit turns"},
+      {"{type: braked, from_r: 8}", "3:33: stop_r is missing (units of M)"},
+      {"{type: braked, from_r: 8, stop_r: 2}",
+       "3:67: stop_r must exceed 2 (units of M), got 2: nothing rests at or inside the horizon"},
+      {"{type: braked, from_r: 1.5, stop_r: 3}",
+       "3:56: from_r must exceed 2 (units of M), got 1.5: nothing rests at or inside the horizon"},
+      {"{type: braked, from_r: 8, stop_r: 8}",
+       "3:67: stop_r must stay below from_r = 8 (units of M), got 8"},
+      {"{type: braked, from_r: 8, stop_r: 3, speed: 0}",
+       "3:77: speed must be at least 1e-6 (speed of light = 1), got 0"},
+      {"{type: braked, from_r: 8, stop_r: 3, speed: 1}",
+       "3:77: speed must stay below 1 (speed of light = 1), got 1"},
+      {"{type: braked, from_r: 8, stop_r: 3, pace: slowing}",
+       "3:76: pace of 'slowing' needs a trajectory that ends in the singularity"},
+      {"{type: braked, from_r: 8, stop_r: 3, to_r: 2.5}",
+       "3:76: to_r is not passed after the segment's beginning; it moves between r = 3 M and 8 M"},
+  });
+}
+
 TEST_F(ShowErrorsInOrbits, Paths) {
   expect_complaints_of_trajectories({
       {"{type: path}",

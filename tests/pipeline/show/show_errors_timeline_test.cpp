@@ -39,10 +39,11 @@ TEST_F(ShowErrorsInTimelines, FallsOrbitsAndRestThatDoNotExist) {
   expect_complaints_of_trajectories({
       {"{r: 9}",
        "3:33: type is missing: static, circular, parabolic, hyperbolic, bound, infall, thrown, "
-       "kruskal, path, velocity, body or continue"},
+       "kruskal, spiral, braked, path, velocity, body or continue"},
       {"{type: infal, from_r: 9}",
        "3:40: type must be static, circular, parabolic, hyperbolic, bound, infall, thrown, "
-       "kruskal, path, velocity, body or continue, got 'infal'; did you mean infall?"},
+       "kruskal, spiral, braked, path, velocity, body or continue, got 'infal'; did you mean "
+       "infall?"},
       {"{type: infall, from_r: -3}", "3:56: from_r must exceed 0 (units of M), got -3"},
       {"{type: infall, from_r: 2e9, to_r: 1e8}",
        "3:56: from_r must be at most 1000000000 (units of M), got 2e9"},

@@ -23,7 +23,7 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
   expect_complaints_behind_hole({
       {"timeline:\n  - &s {duration_s: 1, trajectory: *s}",
        "3:5: timeline[1].trajectory.type is missing: static, circular, parabolic, hyperbolic, "
-       "bound, infall, thrown, kruskal, path, velocity, body or continue"},
+       "bound, infall, thrown, kruskal, spiral, braked, path, velocity, body or continue"},
       {"timeline: [{duration_s: 1, trajectory: {type: static, r: 9}}]\nsky: {region_I: "
        "{background: \"münchen.png\", gain: -1}}",
        "3:30: sky.region_I.background names the file 'münchen.png', which is neither beside the "

@@ -1,0 +1,83 @@
+#include "trajectories/flight_table.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+namespace domefall {
+namespace {
+
+constexpr double kFlightTolerance = 1e-14;  // of an integrand, relative to the largest of its panel
+constexpr int kFlightHalvings = 60;         // halvings of a panel
+constexpr std::size_t kFlightPanels = 4000;
+
+}  // namespace
+
+FlightTable::FlightTable(const std::function<Times(double)>& rates, std::vector<double> kinks) {
+  kinks.push_back(1);
+  double low = 0;
+  for (const double high : kinks) {
+    append(rates, low, high, 0);
+    low = high;
+  }
+  for (Panel& panel : panels_) {
+    panel.from = whole_;
+    whole_.tau += panel_sum(panel.tau, 1);
+    whole_.null_time += panel_sum(panel.null_time, 1);
+  }
+}
+
+void FlightTable::append(const std::function<Times(double)>& rates, double low, double high,
+                         int depth) {
+  Panel panel{low, high, {}, {}, {}};
+  PanelValues tau{}, null_time{};
+  const double middle = (low + high) / 2, half = (high - low) / 2;
+  for (std::size_t j = 0; j < kPanelTerms; ++j) {
+    const Times rate = rates(middle + half * panel_node(j));
+    tau[j] = rate.tau, null_time[j] = rate.null_time;
+  }
+  const bool resolved = integrate_panel(tau, half, kFlightTolerance, panel.tau);
+  if ((integrate_panel(null_time, half, kFlightTolerance, panel.null_time) && resolved) ||
+      depth == kFlightHalvings) {
+    panels_.push_back(panel);
+    return;
+  }
+  if (panels_.size() > kFlightPanels)
+    throw std::domain_error("a flight whose proper time double precision cannot tell");
+  append(rates, low, middle, depth + 1);
+  append(rates, middle, high, depth + 1);
+}
+
+FlightTable::Times FlightTable::to_go(double q) const {
+  const auto after = std::upper_bound(panels_.begin() + 1, panels_.end(), q,
+                                      [](double value, const Panel& p) { return value < p.low; });
+  const Panel& panel = *(after - 1);
+  const double part = ((q - panel.low) - (panel.high - q)) / (panel.high - panel.low);
+  return {panel.from.tau + panel_sum(panel.tau, part),
+          panel.from.null_time + panel_sum(panel.null_time, part)};
+}
+
+double FlightTable::parameter(double tau_to_go) const {
+  if (!(tau_to_go > 0)) return 0;
+  if (!(tau_to_go < whole_.tau)) return 1;
+  const auto after =
+      std::upper_bound(panels_.begin() + 1, panels_.end(), tau_to_go,
+                       [](double value, const Panel& p) { return value < p.from.tau; });
+  const Panel& panel = *(after - 1);
+  const auto off = [&](double part) {
+    return panel_sum(panel.tau, part) - (tau_to_go - panel.from.tau);
+  };
+  const double at_low = off(-1), at_high = off(1);
+  // Rounding of the sums may put a time next to a panel's end beyond it.
+  if (!(at_low < 0)) return panel.low;
+  if (!(at_high > 0)) return panel.high;
+  std::uintmax_t steps = 100;
+  const auto found = boost::math::tools::toms748_solve(
+      off, -1.0, 1.0, at_low, at_high, boost::math::tools::eps_tolerance<double>(52), steps);
+  const double part = (found.first + found.second) / 2, half = (panel.high - panel.low) / 2;
+  return part < 0 ? panel.low + half * (1 + part) : panel.high - half * (1 - part);
+}
+
+}  // namespace domefall

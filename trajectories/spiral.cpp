@@ -1,0 +1,255 @@
+#include "trajectories/spiral.h"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "pipeline/spacetime/schwarzschild.h"
+#include "trajectories/circular_orbit.h"
+#include "trajectories/flight_table.h"
+#include "trajectories/geodesic.h"
+#include "trajectories/orbit_bounds.h"
+#include "trajectories/square.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kLastStable = Schwarzschild::last_stable_orbit();
+
+// Returns the zero of a monotone function between low and high, or high if rounding has moved the
+// zero beyond it.
+template <class Function>
+double zero_between(const Function& f, double low, double high) {
+  const double at_low = f(low), at_high = f(high);
+  if ((at_low > 0) == (at_high > 0)) return high;
+  std::uintmax_t steps = 200;
+  const auto found = boost::math::tools::toms748_solve(
+      f, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(52), steps);
+  return (found.first + found.second) / 2;
+}
+
+// A Departure says how an observer leaves the orbits at r = from_r.  With w = 1/r and w_c of the
+// circle from which the fall comes, a fall of that angular momentum L has
+//
+//   (dw/dphi)^2 = p + 2 h^2 (h + y),   h = w - w_c,   y = (6 - r_c)/(2 r_c)
+//
+// where p = 0 is the fall that has come off the circle itself.  The push ends at h = `over`, and
+// there its dw/dphi is twice the mean 1/angle of its whole way in w.  Then h = 2/angle^2 - y makes
+// p = 0 for a push that begins at the circle.
+struct Departure {
+  double circle;  // r_c
+  double y;
+  double far;          // w_c - 1/from_r, >= 0
+  double over;         // > 0
+  double circled = 0;  // radians that are spent on the circle before
+
+  Departure(double from_r, double h)
+      : circle(std::min(from_r, kLastStable)),
+        y((kLastStable - circle) / (2 * circle)),
+        far(from_r > kLastStable ? (from_r - kLastStable) / (kLastStable * from_r) : 0),
+        over(h) {}
+
+  double rise() const { return far + over; }  // of w, during the push
+  double angle() const { return std::sqrt(2 / (over + y)); }
+  double slope() const { return 2 * rise() / angle(); }      // dw/dphi at its end
+  double bend() const { return over * (3 * over + 2 * y); }  // d^2w/dphi^2
+  double p() const { return 4 * far * (far + 2 * over) / square(angle()); }
+
+  // Returns the azimuth from the end of the push to the horizon.
+  double angle_of_fall() const {
+    const auto rate = [this](double log_h) {
+      const double h = std::exp(log_h);
+      return h / std::sqrt(p() + 2 * h * h * (h + y));
+    };
+    constexpr unsigned kDepth = 15;
+    constexpr double kTolerance = 1e-14;
+    return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+        rate, std::log(over), std::log(farthest()), kDepth, kTolerance);
+  }
+  double farthest() const { return 0.5 - 1 / circle; }  // h at the horizon
+};
+
+// Returns the departure that takes `turning` radians to the horizon.  Those that push and fall do
+// not take are spent on the circle.
+Departure departure(double from_r, double turning) {
+  // What has come this close to the circle whirls on it, by some 10 radians over sqrt(2y).
+  constexpr double kClosest = 1e-4;
+  const Departure any(from_r, 1);
+  const auto excess = [&](double log_h) {
+    const Departure d(from_r, std::exp(log_h));
+    return d.angle() + d.angle_of_fall() - turning;
+  };
+  const double low = std::log(any.y > 0 ? kClosest * any.y : 2 / square(turning));
+  const double left = any.y > 0 ? -excess(low) : 0;
+  Departure d(from_r,
+              std::exp(left > 0 ? low : zero_between(excess, low, std::log(any.farthest()))));
+  d.circled = std::max(0.0, left);
+  return d;
+}
+
+OrbitConstants constants_of_circle(double r) {
+  return {(r - 2) / std::sqrt(r * (r - 3)), (4 - r) / (r * (r - 3)), r / std::sqrt(r - 3)};
+}
+
+// Returns the free fall after a departure.  tau = 0 at its beginning.
+Geodesic fall_after(const Departure& d) {
+  // An orbit that is closer to the one without end than this part of P does not differ from it.
+  constexpr double kNothing = 1e-17;
+  OrbitConstants c = constants_of_circle(d.circle);
+  const double l2 = square(c.angular_momentum);
+  const double least = kNothing * 2 * l2 * d.over * (d.over + d.y);
+  const double more = l2 * d.p();
+  if (more == 0) {
+    const double parameter = std::asinh(std::sqrt(d.over * d.circle));
+    return {OrbitCurve::returning(c, d.circle, d.circle - 2, least), parameter, 0};
+  }
+  c.excess_energy += more;
+  c.energy = std::sqrt(1 + c.excess_energy);
+  if (c.excess_energy >= 0) {
+    const OrbitCurve curve = OrbitCurve::unturned(c, false, 0.25, 0);
+    return {curve, curve.parameter(1 / (1 / d.circle + d.over), false), -kInfinity};
+  }
+  // Here P = 24 (h^3 + below^3), so that G of OrbitCurve::returning is least at h = below/2.
+  const double below = std::cbrt(d.p() / 2), top = 1 / (1 / d.circle - below);
+  const double parameter = std::asinh(std::sqrt((d.over + below) * top));
+  return {OrbitCurve::returning(c, top, top - 2, std::max(18 * square(below), least)), parameter,
+          0};
+}
+
+// A Push is the part with engines, along x = 0 to 1 of its azimuth.  w rises by the part
+// S = x^3 (a + b x + c x^2), whose first two derivatives are 0 at x = 0 and those of the fall at
+// x = 1.  It rises throughout.
+struct Push {
+  double from_r, rise, angle, angular_momentum;  // L from 6 M inward
+  double a, b, c;
+
+  Push(double r, const Departure& d)
+      : from_r(r),
+        rise(d.rise()),
+        angle(d.angle()),
+        angular_momentum(constants_of_circle(d.circle).angular_momentum) {
+    const double slope = 2, bend = d.bend() * square(angle) / rise;
+    c = bend / 2 + 6 - 3 * slope;
+    b = slope - 3 - 2 * c;
+    a = 1 - b - c;
+  }
+
+  double part(double x) const { return x * x * x * (a + x * (b + x * c)); }
+  double r_at(double x) const { return from_r / (1 + from_r * rise * part(x)); }
+
+  // A Motion is that of the observer there.
+  struct Motion {
+    double r, radial, tangential, energy;  // dr/dtau, r dphi/dtau, E
+  };
+  Motion at(double x) const {
+    const double r = r_at(x);
+    const double l = r > kLastStable ? 1 / std::sqrt(r - 3) : angular_momentum / r;
+    const double slope = x * x * (3 * a + x * (4 * b + x * 5 * c));
+    const double radial = -r * l * rise * slope / angle;
+    const double energy2 = square(radial) + Schwarzschild::lapse_squared(r) * (1 + l * l);
+    return {r, radial, l, std::sqrt(energy2)};
+  }
+
+  FlightTable::Times rates(double x) const {
+    const Motion m = at(x);
+    const double rate = angle * m.r / m.tangential;
+    return {rate, rate * (1 + square(m.tangential)) / (m.energy - m.radial)};
+  }
+
+  // Returns x where r is passed, for a radius of the push.
+  double where(double r) const {
+    const double wanted = (from_r - r) / (from_r * r * rise);
+    if (!(wanted > 0)) return 0;
+    if (!(wanted < 1)) return 1;
+    return zero_between([&](double x) { return part(x) - wanted; }, 0.0, 1.0);
+  }
+
+  // L has a kink in its second derivative at 6 M.
+  FlightTable times() const {
+    std::vector<double> kinks;
+    const double kink = from_r > kLastStable ? 1 - where(kLastStable) : 0;
+    if (kink > 0 && kink < 1) kinks.push_back(kink);
+    return {[this](double q) { return rates(1 - q); }, kinks};
+  }
+};
+
+}  // namespace
+
+struct Spiral::Tables {
+  CircularOrbit circle;
+  double circled;  // radians
+  double pushed;   // proper time
+  Push push;
+  FlightTable times;
+  Geodesic fall;
+  double death;
+  ProperTime released;  // as it is before `death`, which is rounded
+
+  double null_at_push() const { return double(circle.at(pushed).null_time); }
+
+  Tables(double from_r, const Departure& d)
+      : circle{from_r},
+        circled(d.circled),
+        pushed(circled / (2 * std::numbers::pi) * period(circle)),
+        push(from_r, d),
+        times(push.times()),
+        fall(fall_after(d)),
+        death(pushed + times.whole().tau + fall.death()),
+        released(ProperTime(death) - fall.death()) {}
+};
+
+Spiral::Spiral(double from_r, double turns) {
+  require_above("from_r", "units of M", from_r, kCircularInnermost,
+                "at the light circle an orbit needs the speed of light");
+  require_at_least("turns", "revolutions", turns, kFewestTurns,
+                   "with fewer nothing is left of the orbit");
+  if (turns > kMostTurns)
+    require_below("turns", "revolutions", turns, kMostTurns, "more are a circular orbit");
+  tables_ = std::make_shared<const Tables>(from_r, departure(from_r, 2 * std::numbers::pi * turns));
+}
+
+double Spiral::death() const { return tables_->death; }
+double Spiral::pushed() const { return tables_->pushed; }
+ProperTime Spiral::released() const { return tables_->released; }
+std::pair<double, double> Spiral::reach() const { return {0, tables_->circle.r}; }
+
+OrbitPoint Spiral::at(const ProperTime& tau) const {
+  const Tables& t = *tables_;
+  if (tau <= ProperTime(t.pushed)) return t.circle.at(tau);
+  const DoubleDouble null_at_release = exact_sum(t.null_at_push(), t.times.whole().null_time);
+  if (tau < t.released) {
+    const double q = t.times.parameter(double(t.released - tau)), x = 1 - q;
+    const Push::Motion m = t.push.at(x);
+    // E^2 cancels in (1 - E^2) + l^2.
+    const double squares = 2 / m.r * (1 + square(m.tangential)) - square(m.radial);
+    return {
+        Region::kI,
+        Tetrad::kRain,
+        m.r,
+        t.circled + t.push.angle * x,
+        {Schwarzschild::radial_celerity(m.r, m.radial, m.energy, squares, false), 0, m.tangential},
+        null_at_release - t.times.to_go(q).null_time};
+  }
+  OrbitPoint p = t.fall.at(tau - t.released);
+  p.azimuth += t.circled + t.push.angle;
+  p.null_time = p.null_time + null_at_release;
+  return p;
+}
+
+std::optional<ProperTime> Spiral::time_at(double r, Leg leg, const ProperTime& after) const {
+  const Tables& t = *tables_;
+  if (leg == Leg::kOutward || !(r > 0) || r > t.circle.r) return std::nullopt;
+  std::optional<ProperTime> tau = t.pushed;
+  if (r <= t.push.r_at(1)) {
+    tau = t.fall.time_at(r, Leg::kInward);
+    if (tau) tau = *tau + t.released;
+  } else if (r < t.circle.r) {
+    tau = t.released - t.times.to_go(1 - t.push.where(r)).tau;
+  }
+  return tau && *tau >= after ? tau : std::nullopt;
+}
+
+}  // namespace domefall
