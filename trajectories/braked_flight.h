@@ -1,5 +1,5 @@
-// A BrakedFlight is that of an observer with engines who comes straight in and is at rest at stop_r,
-// where it hovers from then on.  Against the static observer at r its rapidity is
+// A BrakedFlight is that of an observer with engines who comes straight in and is at rest at
+// stop_r, where it hovers from then on.  Against the static observer at r its rapidity is
 //
 //   psi(r) = psi_0 ((r - r_1)/(r_0 - r_1))^(2/3)
 //
@@ -20,8 +20,8 @@ namespace domefall {
 
 class BrakedFlight {
  public:
-  // Takes 2 < stop_r < from_r (M), and the speed at from_r against the static observer, 1e-6 to below
-  // 1.  Throws std::domain_error that names the bound.
+  // Takes 2 < stop_r < from_r (M), and the speed at from_r against the static observer, 1e-6 to
+  // below 1.  Throws std::domain_error that names the bound.
   BrakedFlight(double from_r, double stop_r, double speed);
 
   // Returns the proper time from from_r to the stop, in M.

@@ -1,7 +1,8 @@
-// A FlightTable holds the proper time and the null time to the end of a flight with engines, along a
-// parameter q that is 0 at the end and 1 at the beginning.  Both are plain quadratures, done once, as
-// Chebyshev series over panels that are halved until the last terms of the integrands vanish.  They
-// count from the end, since a flight comes from far away, slowly, to where things are quick.
+// A FlightTable holds the proper time and the null time to the end of a flight with engines, along
+// a parameter q that is 0 at the end and 1 at the beginning.  Both are plain quadratures, done
+// once, as Chebyshev series over panels that are halved until the last terms of the integrands
+// vanish.  They count from the end, since a flight comes from far away, slowly, to where things are
+// quick.
 #pragma once
 
 #include <functional>

@@ -92,7 +92,8 @@ OrbitCurve::Point OrbitCurve::bound_at(double s) const {
 }
 
 // Here G = G(w_a) + L^2 (w - w_a)(2w + 4 w_a - 1) = G_least + 2 L^2 (w - w_m)^2 with
-// w_m = (1 - 2 w_a)/4, which is w_a + (r_a - 6)/(4 r_a).  The first is a sum of positive terms for r_a <= 6, and the second beyond.
+// w_m = (1 - 2 w_a)/4, which is w_a + (r_a - 6)/(4 r_a).  The first is a sum of positive terms for
+// r_a <= 6, and the second beyond.
 OrbitCurve::Point OrbitCurve::returning_at(double s) const {
   const double sine = std::sinh(s), cosine = std::cosh(s), wa = 1 / far_;
   const double r = far_ / square(cosine), l2 = square(constants_.angular_momentum);

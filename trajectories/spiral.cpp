@@ -82,8 +82,9 @@ Departure departure(double from_r, double turning) {
     const Departure d(from_r, std::exp(log_h));
     return d.angle() + d.angle_of_fall() - turning;
   };
-  const double low = std::log(any.y > 0 ? kClosest * any.y : 2 / square(turning));
-  const double left = any.y > 0 ? -excess(low) : 0;
+  // With the second of these the push alone would take all of the angle.
+  const double low = std::log(std::max(kClosest * any.y, 2 / square(turning) - any.y));
+  const double left = -excess(low);
   Departure d(from_r,
               std::exp(left > 0 ? low : zero_between(excess, low, std::log(any.farthest()))));
   d.circled = std::max(0.0, left);

@@ -14,9 +14,9 @@
 // Whoever starts above 6 M shrinks the circle by the push, which takes most of the turns, and the
 // engines stop a little below 6 M.  The turns are those from tau = 0 to r = 2 M.
 //
-// The states are exact to rounding for their r.  Azimuths keep to 1e-12 of the whole, or 1e-10 where
-// from_r is above 6 M by less than 0.001 M.  Proper time and null time are quadratures (flight_table.h,
-// geodesic.h).
+// The states are exact to rounding for their r.  Azimuths keep to 1e-12 of the whole, or 1e-10
+// where from_r is above 6 M by less than 0.001 M.  Proper time and null time are quadratures
+// (flight_table.h, geodesic.h).
 #pragma once
 
 #include <memory>

@@ -126,11 +126,16 @@ V3d motion_direction(const ObserverState& o) {
 std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& o,
                                     const Effects& effects) {
   const Viewer viewer = viewer_of(o, effects);
-  if (std::holds_alternative<LookAtHole>(attitude))
-    return to_observer(viewer.celerity, V3d(-1, 0, 0)).direction;
+  const V3d hole = to_observer(viewer.celerity, V3d(-1, 0, 0)).direction;
+  if (std::holds_alternative<LookAtHole>(attitude)) return hole;
   if (std::holds_alternative<LookOutward>(attitude))
     return to_observer(viewer.celerity, V3d(1, 0, 0)).direction;
-  if (std::holds_alternative<LookAlongMotion>(attitude)) return motion_seen(o, viewer).normalized();
+  if (std::holds_alternative<LookAlongMotion>(attitude)) {
+    const V3d motion = motion_seen(o, viewer);
+    // What is left of the motion of an observer who has stopped is rounding.
+    constexpr double kAtRest = 1e-14;
+    return motion.length() > kAtRest * (1 + o.celerity.length2()) ? motion.normalized() : hole;
+  }
   if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
     // From region IV no sky is seen.  At r = 2 its images appear in the outward direction.
     if (o.region == Region::kIV) return to_observer(viewer.celerity, V3d(1, 0, 0)).direction;

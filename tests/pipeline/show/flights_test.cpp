@@ -76,5 +76,25 @@ TEST_F(Flights, ABrakeMayBeSeenInPart) {
   EXPECT_EQ(at(s, 10).r, 8);
 }
 
+// What is left of the motion there is rounding, which once left the camera without a direction.
+TEST_F(Flights, ACameraAlongTheMotionLooksAtTheHoleWhereTheyStop) {
+  for (const char* stop : {"2.0001", "2.5", "3", "5", "7.3", "8", "41.7"}) {
+    const Show s = show(
+        fmt::format("  - {{duration_s: 5, trajectory: {{type: braked, from_r: 60, stop_r: {0}}}}}\n"
+                    "  - {{duration_s: 1, trajectory: {{type: continue}}}}\n"
+                    "  - {{duration_s: 2, trajectory: {{type: path, keyframes: [{{at_m: 0, r: {0}, "
+                    "speed: 0}}, "
+                    "{{at_m: 9, r: {0}, speed: 0}}, {{at_m: 40, r: 60, speed: 0}}]}}}}\n",
+                    stop),
+        "camera: {projection: rectilinear, look_at: motion}\n");
+    for (const double t : {0.0, 3.0, 4.9, 5.2, 5.9, 6.1, 6.4}) {
+      const int frame = nearest_frame(s, t);
+      const M33d axes = frame_state(s, frame).observer.tetrad_from_camera;
+      EXPECT_NEAR(axes.determinant(), 1, 1e-12) << stop << " " << t;
+      EXPECT_NEAR(column(axes, 2).x, -1, 1e-9) << stop << " " << t;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace domefall
