@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/render/scene/body_sight.h"
+#include "pipeline/render/body_trail.h"
 #include "pipeline/render/stars/star_image_finder.h"
 
 namespace domefall {
@@ -11,26 +11,33 @@ namespace domefall {
 namespace {
 
 // Appends one image, and says whether it is bright enough.
-bool append_body(const BodySight& sight, const Body& body, const BodySight::Image& image,
+bool append_body(BodyTrails& trails, const Body& body, int order, const BodySight::Image& image,
                  const DiscPass* disc, const FrameScene& scene, const StarImageFinder& finder,
                  std::vector<StarImage>& images) {
   const SceneStar star = BodySight::star_of(body);
-  std::vector<SkyImage> pieces = sight.pieces(body, image, scene.point_spread.least());
-  const bool is_one = pieces.empty();
-  if (is_one) pieces.push_back(image.at);
   // The disc hides each piece by itself, since the edge of its image may cross that of the body.
-  if (disc)
-    for (SkyImage& piece : pieces)
-      piece.amplification *= disc->left_before(sight.seen(piece).direction, image.traced.psi,
+  const auto before_disc = [&](SkyImage piece, double psi) {
+    if (disc)
+      piece.amplification *= disc->left_before(trails.sight().seen(piece).direction, psi,
                                                largest_pixel_angle(scene.projection()));
-  return is_one ? finder.append_image(star, pieces[0], images)
-                : finder.append_pieces(star, pieces, images);
+    return piece;
+  };
+  std::vector<SkyImage> left;
+  for (const BodyTrails::Piece& piece : trails.trail(body, order, image))
+    left.push_back(before_disc(piece.image, piece.psi));
+  if (!left.empty()) return finder.append_trail(star, left, images);
+  for (const SkyImage& piece : trails.sight().pieces(body, image, scene.point_spread.least()))
+    left.push_back(before_disc(piece, image.traced.psi));
+  return left.empty() ? finder.append_image(star, before_disc(image.at, image.traced.psi), images)
+                      : finder.append_pieces(star, left, images);
 }
 
 }  // namespace
 
-BlobLayer lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc) {
-  const BodySight sight(scene.state, scene.effects, scene.least_star_radius);
+std::vector<StarImage> images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
+                                        const DiscPass* disc) {
+  BodyTrails trails(scene);
+  const BodySight& sight = trails.sight();
   std::vector<StarImage> images;
   if (sight.sees()) {
     // Bodies are in region I or have come from there.
@@ -42,14 +49,18 @@ BlobLayer lay_bodies(const FrameScene& scene, std::span<const Body> bodies, cons
            order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {
         const auto image = sight.image(body, order);
         if (!image) break;
-        const bool bright = append_body(sight, body, *image, disc, scene, finder, images);
+        const bool bright = append_body(trails, body, order, *image, disc, scene, finder, images);
         faint = bright ? 0 : faint + 1;
       }
     }
   }
-  // An observer who sees no bodies gets an empty layer, which draws nothing.
+  return images;
+}
+
+// An observer who sees no bodies gets an empty layer, which draws nothing.
+BlobLayer lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc) {
   BlobLayer layer(scene.projection());
-  layer.add(images, scene.point_spread);
+  layer.add(images_of_bodies(scene, bodies, disc), scene.point_spread);
   layer.sort_into_bands();
   return layer;
 }

@@ -11,6 +11,7 @@
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/rays/key_rounding.h"
 #include "pipeline/render/rendered_frame.h"
+#include "pipeline/render/stars/star_trail.h"
 #include "pipeline/sources/sky/read_sky.h"
 #include "pipeline/sources/stars/star_catalogue.h"
 
@@ -19,7 +20,7 @@ namespace {
 
 // The versions are raised with every change that alters a pixel, so that older frames are made
 // again.  That of bodies counts for shows with bodies only.
-constexpr int kPixelVersion = 10, kBodiesVersion = 2;
+constexpr int kPixelVersion = 10, kBodiesVersion = 3;
 
 // Adds a law.  Settings that came after the first version are added only where they are in use, so
 // that other shows keep their keys.
@@ -194,7 +195,15 @@ std::string FrameKeys::instant(const FrameState& state) const {
   }
   // Whatever moves or glows with time is seen by the observer's null time.
   const SkyBackground& singularity = background_of(show_, state.segment, SkyRegion::kIV);
-  if (!show_.bodies.empty()) digest.add("bodies").add(rounded_for_key(o.null_time));
+  if (!show_.bodies.empty()) {
+    digest.add("bodies").add(rounded_for_key(o.null_time));
+    // Trails of bodies depend on how far the observer goes meanwhile.
+    for (const double frames : {-kWindow, kWindow}) {
+      const ObserverState then = observer_after(show_, state, frames, CameraMotion::kStays);
+      digest.add(rounded_for_key(then.r)).add(rounded_for_key(then.null_time));
+    }
+    for (const double v : {state.sky_turn.x, state.sky_turn.y, state.sky_turn.z}) digest.add(v);
+  }
   if (!is_flat(o) && std::holds_alternative<RingsSky>(singularity))
     digest.add(rounded_for_key(o.null_time));
   if (show_.disc && show_.disc->pattern) digest.add("pattern").add(rounded_for_key(o.null_time));

@@ -246,7 +246,8 @@ void Renderer::render_view(const FrameState& state, double gap, LayeredFrame<T>&
   // Only images behind the hole race, so that in flat space no motion is needed.
   const SkyMotion motion = plan.gravity ? SkyMotion{state.sky_turn, gap} : SkyMotion{};
   const FrameScene scene(show_, state, plan, std::move(lens), skies, motion,
-                         plan.disc ? &*disc_light_ : nullptr);
+                         plan.disc ? &*disc_light_ : nullptr,
+                         body_times(show_, state, show_.exposure.shutter > 0 ? gap : 0));
   times.tables_s = watch.lap();
   frame.set_size(columns(state.projection), rows(state.projection));
   const std::vector<CubemapFace> faces = cubemap_faces(state.projection);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "pipeline/base/simd/half_row.h"
-#include "pipeline/render/scene/body_sight.h"
 #include "pipeline/render/scene/frame_plan.h"
 #include "projections/projection.h"
 
@@ -23,29 +22,7 @@ constexpr double kExceeding = 0.05;
 // 0, and any motion would be infinitely many pixels.
 constexpr double kNarrowest = 0.25;
 
-// Returns how far, in pixels, the direct image of any body moves that is bright enough to be seen.
-double motion_of_bodies(const Show& show, const FrameState& from, const FrameState& to) {
-  constexpr double kFaintest = 10;  // V at 0 EV, fainter than the stars of a default sky
-  const double magnitudes_per_stop = 2.5 * std::log10(2.0);  // a stop doubles the light
-  const BodySight before(from, show.effects, show.least_star_radius),
-      after(to, show.effects, show.least_star_radius);
-  if (!before.sees() || !after.sees()) return 0;
-  double most = 0;
-  for (const Body& body : bodies_at(show, from.settings)) {
-    const auto first = before.image(body, 0), last = after.image(body, 0);
-    if (!first || !last) continue;
-    const BodySight::Seen at = before.seen(first->at);
-    const auto begin = pixel_of(from.projection, at.direction),
-               end = pixel_of(to.projection, after.seen(last->at).direction);
-    // A factor in flux is 2.5 log10 of it in magnitudes.
-    const double magnitude = body.magnitude - 2.5 * std::log10(at.brightening);
-    if (begin && end && magnitude < kFaintest + magnitudes_per_stop * from.settings.ev)
-      most = std::max(most, std::hypot(end->i - begin->i, end->j - begin->j));
-  }
-  return most;
-}
-
-// Returns the motion in pixels between two instants, of the sky or of a body, whichever is larger.
+// Returns the motion of the sky in pixels between two instants.
 double motion_between(const Show& show, const FrameState& from, const FrameState& to,
                       LensStore& lenses) {
   const auto tracer = [&](const FrameState& state) {
@@ -54,7 +31,7 @@ double motion_between(const Show& show, const FrameState& from, const FrameState
   };
   // In this order, in which the store has the tables of `to` for the next pair.
   const ViewTracer first = tracer(from), second = tracer(to);
-  return std::max(motion_in_pixels(from, first, to, second), motion_of_bodies(show, from, to));
+  return motion_in_pixels(from, first, to, second);
 }
 
 }  // namespace

@@ -148,6 +148,26 @@ FrameState frame_state(const Show& show, int frame) {
   return state_at(show, segment_at(show, t), frame, t, show.projection);
 }
 
+ObserverState observer_after(const Show& show, const FrameState& state, double frames,
+                             CameraMotion camera) {
+  const double begin = begin_of(show, state.segment),
+               end = begin + segment_of(show, state.segment).duration_s;
+  const double t = std::clamp(state.show_time_s + frames / show.frames_per_second, begin, end);
+  ObserverState observer = observer_at(show, state.segment, part_at(show, state.segment, t));
+  observer.tetrad_from_camera =
+      camera == CameraMotion::kStays
+          ? state.observer.tetrad_from_camera
+          : camera_axes_at(show, state.segment, t, state.projection, observer);
+  return observer;
+}
+
+SegmentSpan segment_span(const Show& show, const FrameState& state) {
+  const double begin = begin_of(show, state.segment),
+               end = begin + segment_of(show, state.segment).duration_s;
+  return {std::min(0.0, (begin - state.show_time_s) * show.frames_per_second),
+          std::max(0.0, (end - state.show_time_s) * show.frames_per_second)};
+}
+
 std::vector<FrameState> exposure_states(const Show& show, const FrameState& state, int count) {
   const double t = state.frame / show.frames_per_second;
   const double half = show.exposure.shutter / show.frames_per_second / 2;

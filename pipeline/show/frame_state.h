@@ -59,6 +59,19 @@ FrameState frame_state(const Show& show, int frame);
 // of view of their own where it has a variable one, and everything else of the show.
 std::vector<FrameState> exposure_states(const Show& show, const FrameState& state, int count);
 
+// A CameraMotion says whether a camera moves on with time or keeps its place in the view.
+enum class CameraMotion { kMoves, kStays };
+
+// Returns the observer of a state's segment so many frames after the state's instant, or before it
+// where that is negative, but within the segment.
+ObserverState observer_after(const Show& show, const FrameState& state, double frames,
+                             CameraMotion camera);
+// Returns how many frames after the state's instant its segment begins (<= 0) and ends (>= 0).
+struct SegmentSpan {
+  double begin, end;
+};
+SegmentSpan segment_span(const Show& show, const FrameState& state);
+
 // Returns the view that a dissolve shows more of: the state itself, or the vanishing one as long as
 // that has more of the light.
 inline const FrameState& dominant_view(const FrameState& state) {

@@ -36,8 +36,6 @@ SceneStar BodySight::star_of(const Body& body) {
   return SceneStars({star})[0];
 }
 
-// Returns the radius of a body, M.  A body without a size of its own is as large as its light
-// needs.  Like a star, it has a least size, which bounds its light on the axis of the lens.
 double BodySight::radius_of(const Body& body) const {
   if (body.radius > 0) return body.radius;
   return std::max(star_of(body).angular_radius, least_radius_) * kBodyMagnitudeDistance;
@@ -92,6 +90,23 @@ BodySight::Seen BodySight::seen(const SkyImage& image) const {
   return {{apply_transposed(observer_.tetrad_from_camera, at.direction)},
           received_flux(effects_, 1, image.amplification, at.frequency_ratio, g),
           g};
+}
+
+// A boost divides solid angles by doppler^2, which the amplification in the other tetrad undoes.
+SkyImage BodySight::moved_to(const BodySight& other, const SkyImage& image) const {
+  const AberratedLight at = to_observer(viewer_.celerity, image.direction.v);
+  const V3d in_camera = apply_transposed(observer_.tetrad_from_camera, at.direction);
+  const AberratedLight there =
+      to_tetrad(other.viewer_.celerity, apply(other.observer_.tetrad_from_camera, in_camera));
+  const double ratio = at.frequency_ratio * there.frequency_ratio;
+  return {{there.direction}, image.frequency_ratio * ratio, image.amplification / (ratio * ratio)};
+}
+
+bool is_bright(double magnitude, double brightening, const FrameSettings& settings) {
+  constexpr double kFaintest = 10;                           // V at 0 EV
+  const double magnitudes_per_stop = 2.5 * std::log10(2.0);  // a stop doubles the light
+  // A factor in flux is 2.5 log10 of it in magnitudes.
+  return magnitude - 2.5 * std::log10(brightening) < kFaintest + magnitudes_per_stop * settings.ev;
 }
 
 }  // namespace domefall

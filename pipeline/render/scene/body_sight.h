@@ -59,8 +59,14 @@ class BodySight {
   };
   Seen seen(const SkyImage& image) const;
 
- private:
+  // Returns the image that looks to the observer of `other` as this one does to this observer.
+  SkyImage moved_to(const BodySight& other, const SkyImage& image) const;
+
+  // Returns the radius of a body, M.  A body without a size of its own is as large as its light
+  // needs.  Like a star, it has a least size, which bounds its light on the axis of the lens.
   double radius_of(const Body& body) const;
+
+ private:
   std::optional<BodyImage> traced(const Body& body, int order) const;
 
   const Effects& effects_;
@@ -69,5 +75,10 @@ class BodySight {
   std::shared_ptr<const Lens> lens_;
   double least_radius_;
 };
+
+// Says whether a body of this magnitude is bright enough to be seen in a frame with these settings,
+// by an image with this brightening.  Images that are fainter than the stars of a default sky are
+// not.
+bool is_bright(double magnitude, double brightening, const FrameSettings& settings);
 
 }  // namespace domefall

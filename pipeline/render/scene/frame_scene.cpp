@@ -34,21 +34,41 @@ PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameStat
   return light;
 }
 
-// Returns the state of a cubemap's face, whose camera is turned by the axes of the face.
+// Returns the camera of a cubemap's face, which is turned by the axes of the face.
+M33d turned(const M33d& whole, const CubemapFace& face) {
+  return from_columns(apply(whole, face.axes[0]), apply(whole, face.axes[1]),
+                      apply(whole, face.axes[2]));
+}
 FrameState looking_through(const FrameState& state, const CubemapFace& face) {
   FrameState looking = state;
   looking.projection = face.projection;
-  const M33d& whole = state.observer.tetrad_from_camera;
-  looking.observer.tetrad_from_camera = from_columns(
-      apply(whole, face.axes[0]), apply(whole, face.axes[1]), apply(whole, face.axes[2]));
+  looking.observer.tetrad_from_camera = turned(state.observer.tetrad_from_camera, face);
+  return looking;
+}
+BodyTimes looking_through(const BodyTimes& times, const CubemapFace& face) {
+  if (!times.at) return times;
+  BodyTimes looking = times;
+  looking.at = [at = times.at, face](double frames, CameraMotion camera) {
+    ObserverState observer = at(frames, camera);
+    observer.tetrad_from_camera = turned(observer.tetrad_from_camera, face);
+    return observer;
+  };
   return looking;
 }
 
 }  // namespace
 
+BodyTimes body_times(const Show& show, const FrameState& state, double open) {
+  if (show.bodies.empty()) return {};
+  const SegmentSpan span = segment_span(show, state);
+  return {open, span.begin, span.end, [&show, state](double frames, CameraMotion camera) {
+            return observer_after(show, state, frames, camera);
+          }};
+}
+
 FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
                        std::shared_ptr<const Lens> lens, const PerSky<const Sky*>& skies,
-                       SkyMotion sky_motion, const DiscLight* disc_light)
+                       SkyMotion sky_motion, const DiscLight* disc_light, BodyTimes times)
     : state(frame),
       effects(show.effects),
       plan(frame_plan),
@@ -61,7 +81,8 @@ FrameScene::FrameScene(const Show& show, const FrameState& frame, const FramePla
       stars(stars_of_skies(plan, skies)),
       background(backgrounds_of(show, frame, plan, skies, exposure)),
       disc(disc_light),
-      bodies(bodies_at(show, frame.settings)) {}
+      bodies(bodies_at(show, frame.settings)),
+      body_times(std::move(times)) {}
 
 FrameScene::FrameScene(const FrameScene& whole, const CubemapFace& face)
     : state(looking_through(whole.state, face)),
@@ -76,6 +97,7 @@ FrameScene::FrameScene(const FrameScene& whole, const CubemapFace& face)
       stars(whole.stars),
       background(whole.background),
       disc(whole.disc),
-      bodies(whole.bodies) {}
+      bodies(whole.bodies),
+      body_times(looking_through(whole.body_times, face)) {}
 
 }  // namespace domefall

@@ -4,6 +4,7 @@
 // anything from the show again.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,13 +29,23 @@ struct SkyMotion {
   double gap = 1;
 };
 
+// BodyTimes give a scene the instants beside its own at which its bodies are seen.
+struct BodyTimes {
+  double open = 0;            // for so many frames about the instant its light is gathered
+  double begin = 0, end = 0;  // frames from the instant to the ends of its segment, <= 0 and >= 0
+  // Returns the observer so many frames later, from begin to end.  It is null where bodies are seen
+  // at the instant alone.
+  std::function<ObserverState(double frames, CameraMotion camera)> at{};
+};
+
 struct FrameScene {
   // `skies` has null for a sky that the plan leaves out.  The show, the skies and `disc_light` must
   // outlive the scene.  `disc_light` is the light of the show's disc, or null
   // where the plan has no disc.
   FrameScene(const Show& show, const FrameState& frame, const FramePlan& frame_plan,
              std::shared_ptr<const Lens> lens, const PerSky<const Sky*>& skies,
-             SkyMotion sky_motion = {}, const DiscLight* disc_light = nullptr);
+             SkyMotion sky_motion = {}, const DiscLight* disc_light = nullptr,
+             BodyTimes times = {});
 
   // The face of a cubemap is the same scene in another direction.  Its blobs are as wide as in the
   // whole.
@@ -54,11 +65,16 @@ struct FrameScene {
   const PerSky<std::optional<SkyLight>> background;
   const DiscLight* disc;           // null where none is seen
   const std::vector<Body> bodies;  // all of the show, also where none is seen
+  const BodyTimes body_times;
 
   const Projection& projection() const { return state.projection; }
   // Says whether the lens brightens backgrounds as it does stars.  In nature it does not, since a
   // lens leaves the brightness of surfaces as it is.
   bool amplifies_backgrounds() const { return effects.amplification == Amplification::kEverything; }
 };
+
+// Returns the times of the bodies of a show for an instant whose light is gathered for `open` frames.
+// The show must outlive them.
+BodyTimes body_times(const Show& show, const FrameState& state, double open);
 
 }  // namespace domefall

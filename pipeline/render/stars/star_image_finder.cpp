@@ -7,7 +7,6 @@
 #include "pipeline/render/scene/effect_ratios.h"
 #include "pipeline/render/scene/exposure.h"
 #include "pipeline/render/scene/star_light.h"
-#include "pipeline/show/curve.h"
 #include "pipeline/sources/colour/blackbody.h"
 
 namespace domefall {
@@ -32,23 +31,6 @@ constexpr double kPieceSigmas = 1.5;
 // A row may be this much higher than its mean, as a pixel value.  In the dark, a view transform
 // makes half a step of 8 bits of twice this value.
 constexpr double kUneven = 5e-4;
-
-// The window of time depends on the ratio of a source's distance from the axis to its path from
-// frame to frame.  Up to kRacing the window reaches kWindow frames to either side and falls to 0
-// like the power kSharpness.  The ring of a bright star then fades in and out over several frames.
-// Beyond kRacing the window becomes more peaked, until at kSlow its sharpness is kSharpest.  A
-// slower image is therefore a dot with faint tails and not a bar.  From a third of kInstant to
-// kInstant the window shrinks to the instant.
-constexpr double kWindow = 5, kSharpness = 3, kSharpest = 8;
-constexpr double kRacing = 3, kSlow = 12, kInstant = 24;
-// With an open shutter an image is at least the mean over the gap between two instants.  Images
-// that move by less than this many pixels in the gap are left to the mean of the instants.  Their
-// sum ripples by 2 exp(-2 pi^2 (0.9/1.5)^2) = 0.2 %, as a row of Gaussians with a sigma of 0.9
-// pixels (kLeastSigmaPixels).
-constexpr double kTrailPixels = 1.5;
-// A passage is at most this far from the axis (as a sine), and half of its path is at most this
-// long.  The sky is taken as flat up to there.
-constexpr double kFarthestPassage = 0.25, kLongestWay = 0.3;
 
 // Returns the sine of the angle from the axis within which images may be trails.  Between two
 // instants an image turns about the axis by at most way * gap/sine radians.  Farther out than the
@@ -169,10 +151,7 @@ std::optional<AxisPassage> StarImageFinder::passage_of(const SceneStar& star,
   const double length = way.length(), radius = radius_of(star);
   if (!(kWindow * length > radius)) return std::nullopt;
   const double ratio = sine / length, instant = std::min(kInstant, near_ / length);
-  // The window reaches this many frames to either side of the frame's instant.
-  double window = kWindow * (1 - smooth_step((3 * ratio / instant - 1) / 2));
-  double sharpness =
-      kSharpness + (kSharpest - kSharpness) * smooth_step((ratio - kRacing) / (kSlow - kRacing));
+  auto [window, sharpness] = passage_window(ratio, instant);
   // The peak of the weight is (sharpness + 1)/(2 window).  If it is higher than the peak 1/gap of a
   // triangle, the triangle takes its place.  Triangles at the distance of the gap add up to an even
   // exposure.
@@ -282,6 +261,20 @@ bool StarImageFinder::append_trail(const SceneStar& star, const StarTrail& trail
     if (received.placed) images.push_back(received.image);
   }
   return true;
+}
+
+bool StarImageFinder::append_trail(const SceneStar& star, const std::vector<SkyImage>& pieces,
+                                   std::vector<StarImage>& images) const {
+  const std::size_t before = images.size();
+  double light = 0;
+  for (const SkyImage& piece : pieces) {
+    const Received received = receive(star, piece);
+    light += received.peak;
+    if (received.placed) images.push_back(received.image);
+  }
+  if (light > kFaintestPeak) return true;
+  images.resize(before);
+  return false;
 }
 
 bool StarImageFinder::append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,

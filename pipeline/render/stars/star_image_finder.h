@@ -46,6 +46,11 @@ class StarImageFinder {
   bool append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
                      std::vector<StarImage>& images) const;
 
+  // Does the same with the pieces of a trail, which is bright enough if all of its light in one blob
+  // would be.
+  bool append_trail(const SceneStar& star, const std::vector<SkyImage>& pieces,
+                    std::vector<StarImage>& images) const;
+
   // Returns how many stars, counted from the first, may be bright enough by their magnitudes and
   // fluxes.
   std::size_t count(const SceneStars& stars) const;

@@ -4,13 +4,29 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/show/curve.h"
+
 namespace domefall {
 namespace {
 
 // The step in x from one place where the lens is evaluated to the next is at most this.
 constexpr double kStep = 0.25;
 
+// The window of time depends on the ratio of a source's distance from the axis to its path from
+// frame to frame.  Up to kRacing the window reaches kWindow frames to either side and falls to 0
+// like the power kSharpness.  The ring of a bright star then fades in and out over several frames.
+// Beyond kRacing the window becomes more peaked, until at kSlow its sharpness is kSharpest.  A
+// slower image is therefore a dot with faint tails and not a bar.
+constexpr double kSharpness = 3, kSharpest = 8;
+constexpr double kRacing = 3, kSlow = 12;
+
 }  // namespace
+
+PassageWindow passage_window(double ratio, double instant) {
+  return {
+      kWindow * (1 - smooth_step((3 * ratio / instant - 1) / 2)),
+      kSharpness + (kSharpest - kSharpness) * smooth_step((ratio - kRacing) / (kSlow - kRacing))};
+}
 
 AxisPassage::AxisPassage(const V3d& source, const V3d& half_way, double radius, double sharpness)
     : side_(source.x < 0 ? -1 : 1),

@@ -23,6 +23,27 @@
 
 namespace domefall {
 
+// A PassageWindow is the window of time, in frames to either side of the instant, over which an
+// image near the axis is a mean.  Its weight is proportional to (1 - |u|)^sharpness, where u goes
+// from -1 to 1.
+struct PassageWindow {
+  double half, sharpness;
+};
+// Returns the window of a source whose distance from the axis is `ratio` times its path from frame to
+// frame.  From a third of `instant` to `instant` the window shrinks to the instant.
+PassageWindow passage_window(double ratio, double instant);
+
+// Windows reach at most kWindow frames, and have shrunk to the instant where the ratio is kInstant.
+inline constexpr double kWindow = 5, kInstant = 24;
+// A passage is at most this far from the axis (as a sine), and half of its path is at most this
+// long.  The sky is taken as flat up to there.
+inline constexpr double kFarthestPassage = 0.25, kLongestWay = 0.3;
+// With an open shutter an image is at least the mean over the gap between two instants.  Images
+// that move by less than this many pixels in the gap are left to the mean of the instants.  Their
+// sum ripples by 2 exp(-2 pi^2 (0.9/1.5)^2) = 0.2 %, as a row of Gaussians with a sigma of 0.9
+// pixels (kLeastSigmaPixels).
+inline constexpr double kTrailPixels = 1.5;
+
 // An AxisPassage is the path of a source past the axis, from u = -1 to u = 1, with its middle at
 // u = 0.  It counts as no closer to the axis than `radius`/2, because the mean of 1/distance over a
 // disc about the axis is 2/radius.

@@ -1,0 +1,91 @@
+// A body that moves while a frame's light is gathered is drawn as a trail, at the places from which
+// its light is seen then.
+//
+// With an open shutter each instant of the frame stands for its share of the time, and a body that
+// moves by more than a pixel or so meanwhile is drawn at all of that time's places.  Behind the hole
+// the images of a body race around the Einstein ring, as those of a star do (star_trail.h).  There an
+// image is the mean over the same window of time as a star's.  It stays where the hole is at the
+// instant, however the camera turns.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pipeline/render/scene/body_sight.h"
+#include "pipeline/render/scene/frame_scene.h"
+
+namespace domefall {
+
+// A BodyTrails finds trails of the bodies of one scene.
+class BodyTrails {
+ public:
+  // The scene must outlive this object.
+  explicit BodyTrails(const FrameScene& scene);
+
+  // The sight of the scene's own instant.
+  const BodySight& sight() const { return now_; }
+
+  // A Piece is a part of a trail in the tetrad of the scene's instant.
+  struct Piece {
+    SkyImage image;
+    double psi;  // radians that its light has swept
+  };
+  // Returns the pieces of the trail of one order, or nothing where the body is seen at the instant
+  // alone.  `image` is the image at the instant.  The amplifications of all pieces together are the
+  // mean over the time of the trail, to 1e-3.
+  std::vector<Piece> trail(const Body& body, int order, const BodySight::Image& image);
+
+ private:
+  // A Moment is a sight of bodies at another instant.
+  struct Moment {
+    Moment(const FrameScene& scene, double frames, CameraMotion camera);
+    FrameState state;
+    BodySight sight;
+  };
+  // A Window is the time that a trail is the mean of, in frames from the scene's instant.  The weight
+  // is that of a PassageWindow within [begin, end].
+  struct Window {
+    double begin, end, half, sharpness;
+    CameraMotion camera;
+    double weight_up_to(double frames) const;  // its integral from -half
+  };
+  // A Node is an image at one time of a window.
+  struct Node {
+    double frames;
+    const BodySight* sight;
+    std::optional<BodySight::Image> image;
+    CameraDirection seen{V3d(0, 0, 0)};
+    double flux = 0;
+    V3d off_axis{0, 0, 0};  // component of the body's direction across the axis of the lens
+  };
+  // A Passage is how far the body's direction is from the axis of the lens, as a sine, and by how much
+  // it moves from frame to frame.
+  struct Passage {
+    double sine, way;
+  };
+  struct Trail {
+    const Body& body;
+    int order;
+    Window window;
+    double sources_step;  // a source that moves by less across the axis counts as standing
+    std::vector<Piece> pieces{};
+  };
+
+  const Moment& moment_at(double frames, CameraMotion camera);
+  Node node(const Body& body, int order, double frames, CameraMotion camera);
+  Node node_within(const Body& body, int order, double frames, CameraMotion camera);
+  std::optional<Passage> passage_of(const Body& body, int order);
+  std::optional<Window> passage_window_of(const Body& body, int order, const BodyImage& image);
+  std::optional<Window> open_window_of(const Body& body, int order);
+  bool is_one(const Trail& trail, const Node& a, const Node& b) const;
+  void divide(Trail& trail, const Node& a, const Node& b, int depth);
+  void add_piece(Trail& trail, const Node& node, double share) const;
+
+  const FrameScene& scene_;
+  BodySight now_;
+  std::map<std::pair<double, CameraMotion>, std::unique_ptr<const Moment>> moments_;
+};
+
+}  // namespace domefall

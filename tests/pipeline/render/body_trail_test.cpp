@@ -1,0 +1,106 @@
+// Bodies that move while a frame's light is gathered.
+#include "pipeline/render/body_trail.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "pipeline/render/frame_bodies.h"
+#include "pipeline/render/stars/star_trail.h"
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// A static observer at 30 M sees a body in a circular orbit at 8 M, whose plane holds the observer
+// or passes so many radians beside.  Frame 50 is 1 s into a segment of 2 s.
+Show show_with(double azimuth, double beside, double m_per_frame, double radius) {
+  Show show = show_of(StaticObserver{30}, Stereographic{401, 401, 60 * kDegree});
+  show.spacetime = Schwarzschild{4e6};
+  show.frames_per_second = 50;
+  show.timeline[0].duration_s = 2;
+  show.timeline[0].timing = {0, 100 * m_per_frame};
+  show.timeline[0].camera.attitude = LookAtHole{};
+  show.point_spread.min_sigma = 0.4 * kDegree;
+  show.point_spread.max_sigma = 0.5 * kDegree;
+  const FrameState state = frame_state(show, 0);
+  const M33d& axes = state.observer.sky_from_tetrad;
+  Body body;
+  body.trajectory = CircularOrbit{8};
+  body.node = {column(axes, 0) * std::cos(beside) + column(axes, 1) * std::sin(beside)};
+  body.normal = {column(axes, 0) * std::sin(beside) - column(axes, 1) * std::cos(beside)};
+  body.magnitude = -5;
+  body.radius = radius;
+  // It is seen at this azimuth in frame 50.
+  const auto place = image_of_place({30, false, false}, 8, azimuth, 0);
+  const double null_time = frame_state(show, 50).observer.null_time;
+  body.azimuth = azimuth - std::pow(8, -1.5) * (place->null_time + null_time);
+  show.bodies = {body};
+  return show;
+}
+
+std::vector<StarImage> images(const Show& show, const FrameState& state, const BodyTimes& times) {
+  const FramePlan plan = plan_frame(show, state);
+  const FrameScene scene(show, state, plan, lens_of(state.observer, plan.wanted(), show.effects),
+                         {}, {}, nullptr, times);
+  return images_of_bodies(scene, scene.bodies, nullptr);
+}
+
+double light(const std::vector<StarImage>& images) {
+  double sum = 0;
+  for (const StarImage& image : images) sum += image.rgb[1];
+  return sum;
+}
+
+// Returns the mean light of instants over a window, by Simpson's rule in steps that follow a
+// substitution u = sinh: passages are brief.
+template <class Weight>
+double mean_light(const Show& show, int frame, double half, double finest, const Weight& weight) {
+  const FrameState state = frame_state(show, frame);
+  constexpr int kSteps = 240;
+  const double end = std::asinh(half / finest);
+  double sum = 0, weights = 0;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double x = end * (2.0 * k / kSteps - 1), u = finest * std::sinh(x);
+    FrameState then = state;
+    then.observer = observer_after(show, state, u, CameraMotion::kStays);
+    const double part =
+        std::cosh(x) * weight(std::abs(u) / half) * (k == 0 || k == kSteps ? 1 : 2 + 2 * (k % 2));
+    sum += part * light(images(show, then, {}));
+    weights += part;
+  }
+  return sum / weights;
+}
+
+TEST(BodyTrails, HaveTheLightOfTheTimeThatTheShutterIsOpen) {
+  const Show show = show_with(2, 0, 2, 0.05);
+  const FrameState state = frame_state(show, 50);
+  const std::vector<StarImage> streak = images(show, state, body_times(show, state, 0.5));
+  EXPECT_GT(streak.size(), 10u);
+  const double mean = mean_light(show, 50, 0.25, 0.25, [](double) { return 1; });
+  EXPECT_NEAR(light(streak) / mean, 1, 1e-3);
+}
+
+TEST(BodyTrails, BehindTheHoleHaveTheLightOfTheirWindow) {
+  for (const double beside : {0.0, 0.01, 0.1}) {
+    constexpr double kPerFrame = 0.5;
+    const Show show = show_with(pi, beside, kPerFrame, 0.1);
+    const FrameState state = frame_state(show, 50);
+    const std::vector<StarImage> ring = images(show, state, body_times(show, state, 0));
+    // The orbit's time runs as much faster than that of who is at rest at 30 M as he is lower.
+    const double way = std::pow(8, -1.5) * kPerFrame / std::sqrt(1 - 2 / 30.0);
+    const PassageWindow window = passage_window(std::sin(beside) / way, kFarthestPassage / way);
+    const double mean = mean_light(show, 50, window.half, 0.05, [&](double u) {
+      return std::pow(std::max(0.0, 1 - u), window.sharpness);
+    });
+    EXPECT_NEAR(light(ring) / mean, 1, 1e-3) << beside << " " << ring.size();
+  }
+}
+
+}  // namespace
+}  // namespace domefall
