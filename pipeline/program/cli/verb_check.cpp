@@ -10,6 +10,7 @@
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/verbs.h"
 #include "pipeline/program/survey/axis_stars.h"
+#include "pipeline/program/survey/body_motion.h"
 #include "pipeline/program/survey/show_warnings.h"
 #include "pipeline/render/frames/frame_folder.h"
 #include "pipeline/show/file/read_show.h"
@@ -76,6 +77,7 @@ void check(const std::string& file, const std::string& out, bool json) {
   }
   for (const ShowWarning& warning : axis.warnings()) report.warnings.push_back(warning);
   for (const ShowWarning& warning : bodies.warnings()) report.warnings.push_back(warning);
+  for (const ShowWarning& warning : body_warnings(show)) report.warnings.push_back(warning);
   for (const ShowWarning& warning : title_warnings(show)) report.warnings.push_back(warning);
   report.light = survey_light(show, renderer, grade);
   for (const ShowWarning& warning : light_warnings(show, renderer, report.light))

@@ -14,6 +14,7 @@
 #include "pipeline/grade/view_transform.h"
 #include "pipeline/program/diagram/page.h"
 #include "pipeline/program/survey/axis_stars.h"
+#include "pipeline/program/survey/body_motion.h"
 #include "pipeline/program/survey/light_survey.h"
 #include "pipeline/program/survey/show_jumps.h"
 #include "pipeline/program/survey/show_warnings.h"
@@ -209,6 +210,7 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
   }
   for (const ShowWarning& warning : axis.warnings()) warnings.push_back(warning);
   for (const ShowWarning& warning : bodies.warnings()) warnings.push_back(warning);
+  for (const ShowWarning& warning : body_warnings(show)) warnings.push_back(warning);
   for (const ShowWarning& warning : title_warnings(show)) warnings.push_back(warning);
   Renderer renderer(show, 1, {}, kSurveyDetail);
   renderer.stop_when(&stop);
