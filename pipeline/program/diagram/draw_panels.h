@@ -22,7 +22,8 @@ PlaceOnPage draw_radius_panel(Svg& page, const PageBox& box, const Show& show, c
 PlaceOnPage draw_speed_panel(Svg& page, const PageBox& box, const Show& show, const Path& path);
 
 // Draws the orbital plane seen from its north, with the start to the right of the hole.  The box
-// must be square.
+// must be square.  Where a segment reaches more than 30 times as far as the next, radii beyond the
+// nearer ones are logarithmic, and circles with numbers stand in for the axes.
 PlaceOnPage draw_orbit_panel(Svg& page, const PageBox& box, const Path& path);
 
 // Draws the path in the Carter-Penrose diagram.  The box must be twice as wide as high, and the

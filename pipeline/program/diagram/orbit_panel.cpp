@@ -1,25 +1,94 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "pipeline/program/diagram/draw_panels.h"
 
 namespace domefall {
 namespace {
 
+// Where a segment of the show is so much farther out than another, the one would leave nothing of
+// the other on an even scale.
+constexpr double kMuchFarther = 30;
+
+// The circle up to which the panel is even then takes this part of its width.
+constexpr double kEvenPart = 0.55;
+
 struct Plane {
   Scale x, y;
+  double even_to = HUGE_VAL;  // beyond this r the distance from the middle is logarithmic
+  double stretch = 0;         // of the logarithm
+
+  double distance(double r) const {
+    return r <= even_to ? r : even_to * (1 + stretch * std::log(r / even_to));
+  }
+  PagePoint in_plane(const PathPoint& p) const {
+    return {distance(p.r) * std::cos(p.azimuth), distance(p.r) * std::sin(p.azimuth)};
+  }
 };
 
-PagePoint in_plane(const PathPoint& p) {
-  return {p.r * std::cos(p.azimuth), p.r * std::sin(p.azimuth)};
+// A Reach is the farthest that a segment gets from the hole.
+struct Reach {
+  double r = 0;
+  bool moves = false;  // whether the segment's path is more than a dot beside that
+};
+
+// Returns the reaches of the segments in order of size.
+std::vector<Reach> reaches(const Path& path) {
+  constexpr double kDot = 0.05;
+  std::map<int, Reach> of_segment;
+  std::map<int, PathPoint> first;
+  for (const PathPoint& p : path.points) {
+    Reach& reach = of_segment[p.segment];
+    reach.r = std::max(reach.r, p.r);
+    const PagePoint at = Plane{}.in_plane(p),
+                    from = Plane{}.in_plane(first.try_emplace(p.segment, p).first->second);
+    reach.moves |= std::hypot(at.x - from.x, at.y - from.y) > kDot * reach.r;
+  }
+  std::vector<Reach> reaches;
+  reaches.reserve(of_segment.size());
+  for (const auto& [segment, reach] : of_segment) reaches.push_back(reach);
+  std::ranges::sort(reaches, {}, &Reach::r);
+  return reaches;
+}
+
+// Returns the value with two digits that is not smaller.
+double round_up(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::ceil(value / unit) * unit;
+}
+
+// Returns the r up to which the panel is even.  It holds all segments below the widest gap between
+// their reaches, and the light circle.  There is no gap where those below it are dots.
+double even_to(const std::vector<Reach>& far) {
+  double widest = kMuchFarther, end = HUGE_VAL;
+  bool moves = false;
+  for (std::size_t k = 1; k < far.size(); ++k) {
+    moves |= far[k - 1].moves;
+    const double near = std::max(far[k - 1].r, 3.0);
+    if (moves && far[k].r > widest * near) widest = far[k].r / near, end = round_up(1.1 * near);
+  }
+  return end;
+}
+
+// Returns the scales of a square about the hole that holds the whole path.
+Plane compressed_frame(const PageBox& box, double even, double far) {
+  Plane plane{{}, {}, even, (1 / kEvenPart - 1) / std::log(far / even)};
+  const double half = 1.08 * plane.distance(far);
+  plane.x = {-half, half, box.left, box.right};
+  plane.y = {-half, half, box.bottom, box.top};
+  return plane;
 }
 
 // Returns the scales of the least square that holds the path and the light circle, widened by a
 // tenth.
 Plane frame_of(const PageBox& box, const Path& path) {
+  const std::vector<Reach> far = reaches(path);
+  if (const double even = even_to(far); even < HUGE_VAL)
+    return compressed_frame(box, even, far.back().r);
   PageBox around{-3, -3, 3, 3};
   for (const PathPoint& p : path.points) {
-    const PagePoint at = in_plane(p);
+    const PagePoint at = Plane{}.in_plane(p);
     around.left = std::min(around.left, at.x);
     around.right = std::max(around.right, at.x);
     around.top = std::min(around.top, at.y);
@@ -28,6 +97,31 @@ Plane frame_of(const PageBox& box, const Path& path) {
   const double half = 0.55 * std::max(around.width(), around.height());
   const double x = (around.left + around.right) / 2, y = (around.top + around.bottom) / 2;
   return {{x - half, x + half, box.left, box.right}, {y - half, y + half, box.bottom, box.top}};
+}
+
+// Draws circles about the hole instead of axes, which an uneven plane does not have: two within its
+// even part, a heavier one about this, and at most five beyond, clear of that.
+void draw_circles(Svg& page, const PageBox& box, const Plane& plane, const Path& path) {
+  constexpr double kClear = 18;  // pixels
+  const PagePoint centre{plane.x(0), plane.y(0)};
+  const auto radius = [&](double r) { return plane.x(plane.distance(r)) - centre.x; };
+  const double far = reaches(path).back().r;
+  std::vector<double> radii;
+  for (const double r : axis_marks({0, plane.even_to, 0, 1}, 3))
+    if (r > 3 && r < 0.9 * plane.even_to) radii.push_back(r);
+  const int decades = static_cast<int>(std::ceil(std::log10(far / plane.even_to))),
+            every = (decades + 4) / 5;
+  for (double r = std::pow(10, std::ceil(std::log10(plane.even_to))); r <= far;
+       r *= std::pow(10, every))
+    if (radius(r) > radius(plane.even_to) + kClear) radii.push_back(r);
+  for (const double r : radii) page.circle(centre, radius(r), "none", {"#d5d9e1", 1});
+  page.circle(centre, radius(plane.even_to), "none", {"#8d94a1", 1.6});
+  radii.push_back(plane.even_to);
+  // The numbers stand on the circles, up and to the left.
+  for (const double r : radii)
+    page.text({centre.x - 0.6 * radius(r), centre.y - 0.8 * radius(r) + 4}, number_text(r),
+              {12, "#5a606c", "middle", false, false, true});
+  page.frame(box, {"#8d94a1", 1});
 }
 
 void draw_hole(Svg& page, const Plane& plane) {
@@ -45,12 +139,19 @@ void draw_hole(Svg& page, const Plane& plane) {
 
 PlaceOnPage draw_orbit_panel(Svg& page, const PageBox& box, const Path& path) {
   const Plane plane = frame_of(box, path);
-  draw_heading(page, box, "Orbit from above (M)");
+  const bool is_even = plane.even_to == HUGE_VAL;
+  draw_heading(page, box,
+               is_even
+                   ? "Orbit from above (M)"
+                   : "Orbit from above (M), logarithmic beyond r = " + number_text(plane.even_to));
   page.begin_group("orbit");
-  draw_axes(page, box, plane.x, plane.y, 7, 7);
+  if (is_even)
+    draw_axes(page, box, plane.x, plane.y, 7, 7);
+  else
+    draw_circles(page, box, plane, path);
   draw_hole(page, plane);
   PlaceOnPage place = [plane](const PathPoint& p) {
-    const PagePoint at = in_plane(p);
+    const PagePoint at = plane.in_plane(p);
     return PagePoint{plane.x(at.x), plane.y(at.y)};
   };
   draw_path(page, path, place, is_joined_in_plane);

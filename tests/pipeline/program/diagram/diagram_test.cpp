@@ -279,5 +279,27 @@ TEST_F(Pages, TellWhereTheObserverIsInEachPanel) {
   }
 }
 
+// A segment far away left a dot of the orbits of the others.
+TEST_F(Pages, ShowAnOrbitBesideAPlaceFarAway) {
+  const auto page = [this](const char* far, const char* near) {
+    return marked_page(read(std::string("black_hole: {mass_solar: 10}\ntimeline:\n"
+                                        "  - {duration_s: 2, trajectory: {type: static, r: ") +
+                            far + "}}\n  - {duration_s: 8, trajectory: " + near + "}\n"),
+                       101);
+  };
+  constexpr const char* kOrbit = "{type: circular, r: 10, orbits: 1}";
+  const MarkedPage both = page("1e8", kOrbit);
+  EXPECT_NE(both.svg.find("logarithmic beyond r = 11<"), std::string::npos);
+  // The orbit is half as wide as the panel of 460 pixels, and the other place is in the panel too.
+  const PagePoint begin = both.places[20][1], half_way = both.places[60][1],
+                  far = both.places[0][1];
+  EXPECT_GT(begin.x - half_way.x, 200);
+  EXPECT_GT(far.x - begin.x, 50);
+  EXPECT_LT(far.x, 540);
+  // What is not so far, or has no orbit beside it, is drawn evenly.
+  EXPECT_EQ(page("200", kOrbit).svg.find("logarithmic beyond"), std::string::npos);
+  EXPECT_EQ(page("1e8", "{type: static, r: 10}").svg.find("logarithmic beyond"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace domefall
