@@ -136,7 +136,8 @@ std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
   const Retardation retardation(view, null_time, motion, order, radius);
   // The instant lies between one whose light has come before and one whose light has yet to come.
   // Until both are found the steps grow.
-  double low = motion.begin, high = motion.end, step = 1, tau = std::clamp(null_time, low, high);
+  double low = motion.begin, high = motion.end, step = 1,
+         tau = std::clamp(motion.guess.value_or(null_time), low, high);
   bool has_low = false, has_high = false;
   std::optional<std::pair<double, Guess>> best;
   for (int n = 0; n < kSteps; ++n) {

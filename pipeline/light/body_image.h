@@ -25,6 +25,8 @@ struct BodyPoint {
 struct BodyMotion {
   std::function<BodyPoint(double tau)> at;
   double begin, end;  // may be infinite
+  // A tau at which the light is likely to have left, if one is known.  It saves time alone.
+  std::optional<double> guess{};
 };
 
 struct BodyImage {

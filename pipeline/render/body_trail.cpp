@@ -47,12 +47,13 @@ const BodyTrails::Moment& BodyTrails::moment_at(double frames, CameraMotion came
 }
 
 // A camera that stays where it is needs directions against one tetrad.
-BodyTrails::Node BodyTrails::node(const Body& body, int order, double frames, CameraMotion camera) {
+BodyTrails::Node BodyTrails::node(const Body& body, int order, double frames, CameraMotion camera,
+                                  const std::optional<double>& emitted) {
   const Moment& moment = moment_at(frames, camera);
   Node node{frames, &moment.sight, {}};
   const bool goes_on = camera == CameraMotion::kMoves ||
                        moment.state.observer.tetrad == scene_.state.observer.tetrad;
-  if (goes_on && moment.sight.sees()) node.image = moment.sight.image(body, order);
+  if (goes_on && moment.sight.sees()) node.image = moment.sight.image(body, order, emitted);
   if (!node.image) return node;
   const BodySight::Seen seen = node.sight->seen(node.image->at);
   node.seen = seen.direction;
@@ -128,7 +129,12 @@ bool BodyTrails::is_one(const Trail& trail, const Node& a, const Node& b) const 
 }
 
 void BodyTrails::divide(Trail& trail, const Node& a, const Node& b, int depth) {
-  const Node middle = node(trail.body, trail.order, (a.frames + b.frames) / 2, trail.window.camera);
+  // The light of both ends tells about when that of the middle left.
+  std::optional<double> emitted;
+  if (a.image && b.image)
+    emitted = std::midpoint(a.image->traced.proper_time, b.image->traced.proper_time);
+  const Node middle =
+      node(trail.body, trail.order, (a.frames + b.frames) / 2, trail.window.camera, emitted);
   if (depth > 0 && !(is_one(trail, a, b) && is_one(trail, a, middle))) {
     divide(trail, a, middle, depth - 1);
     divide(trail, middle, b, depth - 1);

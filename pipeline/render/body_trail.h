@@ -74,7 +74,9 @@ class BodyTrails {
   };
 
   const Moment& moment_at(double frames, CameraMotion camera);
-  Node node(const Body& body, int order, double frames, CameraMotion camera);
+  // `emitted` is a time near which the light may have left the body (BodySight::image).
+  Node node(const Body& body, int order, double frames, CameraMotion camera,
+            const std::optional<double>& emitted = {});
   Node node_within(const Body& body, int order, double frames, CameraMotion camera);
   std::optional<Passage> passage_of(const Body& body, int order);
   std::optional<Window> passage_window_of(const Body& body, int order, const BodyImage& image);

@@ -41,10 +41,11 @@ double BodySight::radius_of(const Body& body) const {
   return std::max(star_of(body).angular_radius, least_radius_) * kBodyMagnitudeDistance;
 }
 
-std::optional<BodyImage> BodySight::traced(const Body& body, int order) const {
-  return lens_->body_image(observer_.null_time,
-                           motion_of(observer_.spacetime, body, observer_.sky_from_tetrad), order,
-                           radius_of(body));
+std::optional<BodyImage> BodySight::traced(const Body& body, int order,
+                                           const std::optional<double>& emitted) const {
+  BodyMotion motion = motion_of(observer_.spacetime, body, observer_.sky_from_tetrad);
+  motion.guess = emitted;
+  return lens_->body_image(observer_.null_time, motion, order, radius_of(body));
 }
 
 int BodySight::first_order(const Body& body) const {
@@ -57,8 +58,9 @@ bool BodySight::is_too_near(const Body& body) const {
   return direct && !is_outside(*direct, radius_of(body));
 }
 
-std::optional<BodySight::Image> BodySight::image(const Body& body, int order) const {
-  const auto image = traced(body, order);
+std::optional<BodySight::Image> BodySight::image(const Body& body, int order,
+                                                 const std::optional<double>& emitted) const {
+  const auto image = traced(body, order, emitted);
   if (!image || !is_outside(*image, radius_of(body))) return std::nullopt;
   // At kBodyMagnitudeDistance an area has the solid angle 1/distance^2 of itself.
   const double light =

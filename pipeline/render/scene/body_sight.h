@@ -43,7 +43,10 @@ class BodySight {
     SkyImage at;
     BodyImage traced;
   };
-  std::optional<Image> image(const Body& body, int order) const;
+  // `emitted` is a proper time of the body (BodyImage::proper_time) near which its light may have
+  // left.
+  std::optional<Image> image(const Body& body, int order,
+                             const std::optional<double>& emitted = {}) const;
 
   // Returns the pieces in which an image is drawn that is too large for one blob of width sigma
   // (radians, for the camera).  Such an image is that of a sphere, an arc or a part of a ring.
@@ -67,7 +70,8 @@ class BodySight {
   double radius_of(const Body& body) const;
 
  private:
-  std::optional<BodyImage> traced(const Body& body, int order) const;
+  std::optional<BodyImage> traced(const Body& body, int order,
+                                  const std::optional<double>& emitted = {}) const;
 
   const Effects& effects_;
   const ObserverState& observer_;

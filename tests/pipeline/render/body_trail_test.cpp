@@ -102,5 +102,20 @@ TEST(BodyTrails, BehindTheHoleHaveTheLightOfTheirWindow) {
   }
 }
 
+// A guess of when the light left saves time and changes nothing, however wrong it is.
+TEST(BodyTrails, AskForImagesNearThoseThatTheyHave) {
+  const Show show = show_with(2, 0, 2, 0.05);
+  const FrameState state = frame_state(show, 50);
+  const BodySight sight(state, show.effects, show.least_star_radius);
+  const auto image = sight.image(show.bodies[0], 1);
+  ASSERT_TRUE(image);
+  for (const double off : {0.01, -3.0, 1000.0}) {
+    const auto guessed = sight.image(show.bodies[0], 1, image->traced.proper_time + off);
+    ASSERT_TRUE(guessed) << off;
+    EXPECT_NEAR(guessed->traced.proper_time, image->traced.proper_time, 1e-8) << off;
+    EXPECT_LT((guessed->at.direction.v - image->at.direction.v).length(), 1e-8) << off;
+  }
+}
+
 }  // namespace
 }  // namespace domefall
