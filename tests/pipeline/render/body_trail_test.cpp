@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "pipeline/render/frame_bodies.h"
+#include "pipeline/render/frame_key.h"
+#include "pipeline/render/frame_mattes.h"
 #include "pipeline/render/stars/star_trail.h"
 #include "tests/pipeline/render/scenes.h"
 
@@ -114,6 +116,47 @@ TEST(BodyTrails, AskForImagesNearThoseThatTheyHave) {
     ASSERT_TRUE(guessed) << off;
     EXPECT_NEAR(guessed->traced.proper_time, image->traced.proper_time, 1e-8) << off;
     EXPECT_LT((guessed->at.direction.v - image->at.direction.v).length(), 1e-8) << off;
+  }
+}
+
+// The instant of frame 50 is the same however fast the clock runs, and the trail is not.
+TEST(BodyTrails, HaveTheirSpeedInTheKeyOfTheFrame) {
+  const auto key = [](double m_per_frame) {
+    Show show = show_with(pi, 0, 2, 0.05);
+    show.timeline[0].timing = {100 - 50 * m_per_frame, 100 + 50 * m_per_frame};
+    FrameState state = frame_state(show, 50);
+    state.observer = frame_state(show_with(pi, 0, 2, 0.05), 50).observer;
+    return FrameKeys(show, "").scene(state);
+  };
+  EXPECT_NE(key(2), key(1));
+  EXPECT_EQ(key(2), key(2));
+}
+
+// Each body's matte is of its own trail, and the layer of bodies is what the picture has of them.
+TEST(BodyTrails, AreInLayersAndMattes) {
+  Show show = show_with(pi, 0, 2, 0.1);
+  show.output.layers = {Layer::kBodies};
+  show.output.data.mattes = true;
+  const auto rendered = [&](double shutter) {
+    show.exposure.shutter = shutter;
+    LayeredFloatFrame frame;
+    for (const Layer layer : show.output.layers) frame.layers.push_back({layer});
+    frame.mattes = mattes_of(show);
+    Renderer(show, 1).render(frame_state(show, 50), frame);
+    return frame;
+  };
+  for (const double shutter : {0.0, 0.5}) {
+    const LayeredFloatFrame frame = rendered(shutter);
+    std::size_t covered = 0;
+    for (std::size_t k = 0; k < frame.mattes[0].covered.size(); ++k) {
+      // Nothing else shines.
+      ASSERT_EQ(frame.picture.pixels[3 * k + 1], frame.layers[0].light.pixels[3 * k + 1]);
+      if (frame.picture.pixels[3 * k + 1] > 1e-3) {
+        ASSERT_NEAR(frame.mattes[0].covered[k], 1, 1e-3);
+        ++covered;
+      }
+    }
+    EXPECT_GT(covered, 500u) << shutter;
   }
 }
 
