@@ -53,8 +53,9 @@ exits 141 bash -c "set -o pipefail; '$DOMEFALL' trace --table rays.csv | head -n
 [ ! -s "$folder/stderr" ] || fail "a reader that goes is no mistake: $(cat "$folder/stderr")"
 
 # Asked to stop, it ends in order, and may be sent again.
-"$DOMEFALL" render fall.yaml --size 512 --out stopped 2>stderr &
-sleep 0.6
-kill -TERM $!
-ended 143 $!
+"$DOMEFALL" render fall.yaml --size 2k --out stopped 2>stderr &
+stopped=$!
+until [ -n "$(find stopped -name '*.exr' 2>find.stderr)" ]; do sleep 0.05; done
+kill -TERM $stopped
+ended 143 $stopped
 [ -z "$(find stopped -name '*.tmp')" ] || fail "a stopped run left temporaries"

@@ -226,11 +226,10 @@ std::vector<std::string> FrameFolder::foreign_files() const {
 }
 
 void FrameFolder::prepare(const std::vector<int>& frames, bool for_lens_maps) const {
-  std::set<fs::path> folders;
+  std::set<fs::path> made;
   for (const int frame : frames)
     for (const fs::path& file : for_lens_maps ? std::vector{lens(frame)} : paths(frame))
-      folders.insert(file.parent_path());
-  for (const fs::path& folder : folders) make_folder(folder);
+      if (made.insert(file.parent_path()).second) make_folder(file.parent_path());
   sweep_temporaries(folder_);
 }
 
