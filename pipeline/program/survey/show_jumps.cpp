@@ -43,6 +43,7 @@ struct FramePair {
   double turn = 0, stops = 0;  // radians of the camera, EV of the exposure
   double gas = 0;              // radians by which the inner gas of a disc turns
   int segment = -1;            // -1 if a cut lies between them
+  double unseen = 0;  // radians of the camera since the pair before, where frames are left out
 };
 
 // Returns the angle of the rotation from a to b.  The sum of |a - b|^2 over the elements is 6 - 2
@@ -105,27 +106,51 @@ std::vector<int> chosen_frames(const Show& show) {
   return frames;
 }
 
-Pairs compare_frames(const Show& show) {
+Pairs compare_pairs(const Show& show, std::vector<int> frames) {
   // In chunks of 32 neighbours 33 states are computed for 32 pairs.
   constexpr std::size_t kTogether = 32;
-  Pairs found;
-  found.frames = chosen_frames(show);
+  Pairs found{std::move(frames), {}};
   found.pairs.resize(found.frames.size());
   // Chunks are compared in parallel.  Within a chunk, the later state of one pair is the earlier of
   // the next.
   tbb::parallel_for(
       std::size_t{0}, (found.frames.size() + kTogether - 1) / kTogether, [&](std::size_t chunk) {
         std::optional<FrameState> before;
+        if (chunk > 0) before = frame_state(show, found.frames[chunk * kTogether - 1]);
         const std::size_t end = std::min(found.frames.size(), (chunk + 1) * kTogether);
         for (std::size_t k = chunk * kTogether; k < end; ++k) {
           const int n = found.frames[k];
-          if (!before || before->frame != n - 1) before = frame_state(show, n - 1);
+          double unseen = 0;
+          if (!before || before->frame != n - 1) {
+            const FrameState last = frame_state(show, n - 1);
+            if (before) unseen = compare(show, *before, last).turn;
+            before = last;
+          }
           const FrameState now = frame_state(show, n);
           found.pairs[k] = compare(show, *before, now);
+          found.pairs[k].unseen = unseen;
           before = now;
         }
       });
   return found;
+}
+
+// Compares the chosen frames, and those between two of them where the camera turns by more than it
+// does at both, as when a body that it looks at is not seen before.
+Pairs compare_frames(const Show& show) {
+  Pairs found = compare_pairs(show, chosen_frames(show));
+  std::vector<int> frames = found.frames;
+  for (std::size_t k = 1; k < found.frames.size(); ++k) {
+    const int first = found.frames[k - 1] + 1, end = found.frames[k];
+    const double expected = (end - first) * std::max(found.pairs[k - 1].turn, found.pairs[k].turn);
+    if (found.pairs[k].unseen <=
+        2 * expected + kFastestTurnDeg / kRadianDeg / show.frames_per_second)
+      continue;
+    for (int n = first; n < end; ++n) frames.push_back(n);
+  }
+  if (frames.size() == found.frames.size()) return found;
+  std::sort(frames.begin(), frames.end());
+  return compare_pairs(show, frames);
 }
 
 // Adds one warning for each run of neighbours beyond a limit, at its worst frame.  text_of(value)

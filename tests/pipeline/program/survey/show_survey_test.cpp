@@ -170,6 +170,27 @@ TEST_F(ShowJumps, AFastRollAndAFlashAreWarnedOfWhereTheyAre) {
   EXPECT_EQ(warnings[2].frame, 150);
 }
 
+// A body is nowhere before its first light is there.  A hole of 203,000 suns has 1 M of a second.
+TEST_F(ShowJumps, ATurnToABodyThatIsFirstSeenIsWarnedOf) {
+  const auto found = [&](const std::string& begins) {
+    return jump_warnings(
+        read("black_hole: {mass_solar: 2.03e5}\n"
+             "bodies: {late: {trajectory: {type: infall, rest_r: 8}, azimuth_deg: 25, begins_m: " +
+             begins +
+             "}}\n"
+             "camera: {look_at: {body: late}, elevation_deg: 60}\n"
+             "keyframes:\n"
+             "  - {at_s: 5, camera: {look_at: {body: late}}}\n"
+             "  - {at_s: 15.9, camera: {look_at: hole}}\n"
+             "timeline: [{duration_s: 16, trajectory: {type: static, r: 8}}]\n"));
+  };
+  EXPECT_TRUE(found("-12").empty());
+  const auto late = found("-3");
+  ASSERT_EQ(late.size(), 1);
+  EXPECT_EQ(late[0].frame, 27);
+  EXPECT_TRUE(late[0].text.starts_with("the camera turns by ")) << late[0].text;
+}
+
 TEST_F(ShowJumps, AClockThatChangesItsRateWhereTheMotionGoesOnIsWarnedOf) {
   const std::string first =
       "  - {duration_s: 2, trajectory: {type: circular, r: 9, rate_m_per_s: 10}}\n";
