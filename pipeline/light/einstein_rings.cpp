@@ -83,11 +83,11 @@ class Caustic {
   // sin(2 |a - b|).
   SkyImage image(const StarDisc::Chord& chord) const {
     const double a = std::atan(distance(chord.near) / 2), b = std::atan(distance(chord.far) / 2);
-    const NullRay ray = table_.ray_at_distance(2 * std::tan((a + b) / 2));
+    const ZoneRay ray = table_.ray_at_distance(2 * std::tan((a + b) / 2));
     const double psi = 4 * std::atan(table_.x_max() / 2) - 2 * (a + b);
     SkyImage image;
     image.amplification = 2 * std::sin(psi) * std::sin(2 * std::abs(a - b)) * chord.width;
-    image.frequency_ratio = 1 / one_plus_z(ray);
+    image.frequency_ratio = 1 / ray.one_plus_z;
     image.direction = direction(psi, chord.azimuth);
     return image;
   }

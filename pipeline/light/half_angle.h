@@ -8,6 +8,8 @@ namespace domefall {
 
 struct HalfAngle {
   double sine, cosine;
+
+  double angle() const { return 2 * std::atan2(sine, cosine); }  // the whole one, radians
 };
 
 // Returns the half of an angle in [0, pi] that is given by its cosine and sine.  Of the two

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/light/exact_azimuth.h"
+#include "pipeline/spacetime/schwarzschild.h"
 
 namespace domefall {
 namespace {
@@ -29,59 +29,65 @@ V3d across(const V3d& source, double sine) {
   return sine > 0 ? V3d(0, source.y, source.z) / sine : V3d(0, 1, 0);
 }
 
-Critical home_critical(bool outgoing) { return outgoing ? Critical::kSecond : Critical::kFirst; }
-
-// alpha counts from -R in rain, from +R in the outgoing frame.
-TetradDirection tetrad_direction(const NullRay& ray, const V3d& e) {
-  const double sine = 2 * ray.sin_half * ray.cos_half;
-  const double cosine = (ray.cos_half - ray.sin_half) * (ray.cos_half + ray.sin_half);
-  return {V3d(ray.outgoing ? cosine : -cosine, 0, 0) + e * sine};
+// alpha counts from -R, or from R where inward is -1.
+TetradDirection tetrad_direction(const ZoneRay& ray, double inward, const V3d& e) {
+  return {V3d(-inward * ray.cosine(), 0, 0) + e * ray.sine()};
 }
 
 }  // namespace
+
+const SkyTable* HoleOptics::table_of(SkyRegion sky) const {
+  for (const SkyPart& part : parts)
+    if (part.sky == sky && part.table) return &*part.table;
+  return nullptr;
+}
 
 HoleOptics make_hole_optics(const Radius& at, Tetrad tetrad, WantedSkies wanted) {
   HoleOptics optics;
   optics.at = at;
   optics.tetrad = tetrad;
   if (std::isinf(at.r)) return optics;
-  const bool outgoing = is_outgoing(tetrad), outside = at.above_horizon > 0;
-  if (outside || !outgoing) optics.home_edge.emplace(at, home_critical(outgoing));
-  if (at.above_horizon < 0 && !outgoing) optics.far_edge.emplace(at, Critical::kSecond);
+  const bool outgoing = is_outgoing(tetrad);
+  optics.energy = {1 + Schwarzschild::free_fall_speed(at.r), Schwarzschild::below_light_speed(at)};
+  optics.inward = outgoing ? -1 : 1;
+  const SkyRegion own = own_sky(tetrad), other = own_sky(mirror_of(tetrad));
+  if (at.above_horizon > 0 || !outgoing) {
+    const Critical edge = outgoing ? Critical::kSecond : Critical::kFirst;
+    optics.parts.push_back({own, schwarzschild_zone(at, edge, outgoing), {}});
+  }
+  if (at.above_horizon < 0 && !outgoing)
+    optics.parts.push_back({other, schwarzschild_zone(at, Critical::kSecond), {}});
   add_tables(optics, wanted);
   return optics;
 }
 
 void add_tables(HoleOptics& optics, WantedSkies wanted) {
-  const bool outgoing = is_outgoing(optics.tetrad);
-  const auto [home, far] = optics.skies();
-  if (wanted.sky[home] && !optics.home_sky && optics.home_edge)
-    optics.home_sky.emplace(optics.at, home_critical(outgoing), outgoing, optics.table_bits);
-  if (wanted.sky[far] && !optics.far_sky && optics.far_edge)
-    optics.far_sky.emplace(optics.at, Critical::kSecond, false, optics.table_bits);
+  for (SkyPart& part : optics.parts)
+    if (wanted.sky[part.sky] && !part.table) part.table.emplace(part.zone, optics.table_bits);
   if (wanted.sky[SkyRegion::kIV] && !optics.white_hole && !std::isinf(optics.at.r))
-    optics.white_hole.emplace(optics.at, outgoing, optics.table_bits);
+    optics.white_hole.emplace(optics.at, is_outgoing(optics.tetrad), optics.table_bits);
   if (wanted.emission_times && !optics.emission_times && optics.white_hole)
     optics.emission_times.emplace(*optics.white_hole, optics.table_bits);
 }
 
 bool lacks_tables(const HoleOptics& optics, const WantedSkies& wanted) {
-  const auto [home, far] = optics.skies();
-  return (wanted.sky[home] && !optics.home_sky) || (wanted.sky[far] && !optics.far_sky) ||
-         (wanted.sky[SkyRegion::kIV] && !optics.white_hole) ||
+  for (const SkyPart& part : optics.parts)
+    if (wanted.sky[part.sky] && !part.table) return true;
+  return (wanted.sky[SkyRegion::kIV] && !optics.white_hole) ||
          (wanted.emission_times && !optics.emission_times);
 }
 
 int table_count(const HoleOptics& optics) {
-  return int{optics.home_sky.has_value()} + int{optics.far_sky.has_value()} +
-         int{optics.white_hole.has_value()} + int{optics.emission_times.has_value()};
+  int count = int{optics.white_hole.has_value()} + int{optics.emission_times.has_value()};
+  for (const SkyPart& part : optics.parts) count += int{part.table.has_value()};
+  return count;
 }
 
 std::size_t node_count(const HoleOptics& optics) {
-  return (optics.home_sky ? optics.home_sky->node_count() : 0) +
-         (optics.far_sky ? optics.far_sky->node_count() : 0) +
-         (optics.white_hole ? optics.white_hole->node_count() : 0) +
-         (optics.emission_times ? optics.emission_times->node_count() : 0);
+  std::size_t count = (optics.white_hole ? optics.white_hole->node_count() : 0) +
+                      (optics.emission_times ? optics.emission_times->node_count() : 0);
+  for (const SkyPart& part : optics.parts) count += part.table ? part.table->node_count() : 0;
+  return count;
 }
 
 SkyImage image_of(const SkyTable* table, const V3d& source, int order, double axis_blur) {
@@ -89,16 +95,15 @@ SkyImage image_of(const SkyTable* table, const V3d& source, int order, double ax
   const double sine = sine_of(source);
   const Order o = order_of(std::atan2(sine, source.x), order);
   const double x = table->distance(o.phi);
-  const NullRay ray = table->ray_at_distance(x);
+  const ZoneRay ray = table->ray_at_distance(x);
   SkyImage image;
-  image.direction = tetrad_direction(ray, across(source, sine) * o.side);
-  image.frequency_ratio = 1 / one_plus_z(ray);
+  image.direction = tetrad_direction(ray, table->zone().inward, across(source, sine) * o.side);
+  image.frequency_ratio = 1 / ray.one_plus_z;
   // At the far end, where sin(alpha) and sin(phi) vanish together, their ratio is 1/slope.
   const double slope = table->slope(x);
   const bool far_end = order == 0 && o.phi < 1e-6;
   image.amplification =
-      far_end ? 1 / (slope * slope)
-              : 2 * ray.sin_half * ray.cos_half / (std::hypot(sine, axis_blur) * slope);
+      far_end ? 1 / (slope * slope) : ray.sine() / (std::hypot(sine, axis_blur) * slope);
   return image;
 }
 
@@ -116,8 +121,9 @@ WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int or
   for (int k = 0; k < images.count; ++k) {
     const NullRay& ray = branches.ray[static_cast<std::size_t>(k)];
     SkyImage& image = images.image[static_cast<std::size_t>(k)];
-    const double sin_alpha = 2 * ray.sin_half * ray.cos_half;
-    image.direction = tetrad_direction(ray, across(source, sine) * o.side);
+    const ZoneRay seen{{ray.sin_half, ray.cos_half}, 1};
+    const double sin_alpha = seen.sine();
+    image.direction = tetrad_direction(seen, ray.outgoing ? -1 : 1, across(source, sine) * o.side);
     image.frequency_ratio = 1;
     const double slope = table.slope(table.place_of(ray));
     image.amplification =
@@ -127,22 +133,16 @@ WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int or
   return images;
 }
 
-TetradDirection primary_image(double r, Tetrad tetrad, const V3d& source) {
-  if (std::isinf(r)) return {source};
-  const bool outgoing = is_outgoing(tetrad);
-  const Critical edge = home_critical(outgoing);
+TetradDirection primary_image(const HoleOptics& optics, const V3d& source) {
+  const SkyZone& zone = optics.parts.front().zone;
   const double sine = sine_of(source), phi_star = std::atan2(sine, source.x);
-  const double tangent = tan_half_critical(r, edge), sign = outgoing ? -1 : 1;
-  const auto ray_at_offset = [&](double offset) {
-    return ray_off_edge(r, edge, sign * offset, {outgoing, false});
-  };
   // phi falls from infinity at the edge to 0 at the far end.
-  double low = 0, high = 2 * (outgoing ? std::atan(tangent) : std::atan2(1.0, tangent));
+  double low = 0, high = zone.reach;
   for (int step = 0; step < 200 && high - low > 1e-16; ++step) {
     const double middle = (low + high) / 2;
-    (exact_azimuth(ray_at_offset(middle)) > phi_star ? low : high) = middle;
+    (zone.azimuth(middle) > phi_star ? low : high) = middle;
   }
-  return tetrad_direction(ray_at_offset((low + high) / 2), across(source, sine));
+  return tetrad_direction(zone.ray((low + high) / 2), optics.inward, across(source, sine));
 }
 
 }  // namespace domefall

@@ -1,52 +1,46 @@
-// HoleOptics hold all that light does between where it starts and the frame of free fall at one
-// radius.  Frames of equal r share one.  Aberration, camera and projection stay outside.
-//
-// Within this package skies are named from the observer's side.  The home sky is the own sky of the
-// reference tetrad (own_sky), and the far sky is the other one, which is seen inside the horizon.
-// All others name a sky by its region.
+// HoleOptics hold all that light does in a static, spherical space between where it starts and a
+// frame that is in radial motion at one place.  Frames of equal r share one.  Aberration, camera and
+// projection stay outside.
 #pragma once
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "pipeline/light/emission_time_table.h"
 #include "pipeline/light/lens.h"
-#include "pipeline/light/sky_table.h"
+#include "pipeline/light/schwarzschild_zone.h"
 #include "pipeline/light/white_hole_table.h"
 #include "pipeline/spacetime/regions.h"
 
 namespace domefall {
 
+// A SkyPart is a part of the view in which a sky is seen, with its table if that sky is wanted.
+struct SkyPart {
+  SkyRegion sky;
+  SkyZone zone;
+  std::optional<SkyTable> table;
+};
+
 struct HoleOptics {
   Radius at = kFlatSpace;
   Tetrad tetrad = Tetrad::kRain;
   int table_bits = OctaveCurve::kPerOctaveBits;  // of tables to be made; see OctaveCurve
-  // Here the skies end, whether they are wanted or not.  Beyond both is light of the white hole.
-  std::optional<SkyEdge> home_edge, far_edge;
-  std::optional<SkyTable> home_sky, far_sky;
+  ViewEnergy energy;                             // that of every zone
+  double inward = 1;                             // that of every zone
+  // These are at most two zones, whether their skies are wanted or not, that of the tetrad's own sky
+  // first.  Beyond both is light of the white hole, or none.
+  std::vector<SkyPart> parts;
   std::optional<WhiteHoleTable> white_hole;
   std::optional<EmissionTimeTable> emission_times;
 
-  // Returns the skies of regions I and III, with the home sky first.
-  std::array<SkyRegion, 2> skies() const {
-    const SkyRegion home = own_sky(tetrad);
-    return {home, home == SkyRegion::kI ? SkyRegion::kIII : SkyRegion::kI};
-  }
-  // Returns the edge of the sky of region I or III, or null where it is not seen or space is flat.
-  const SkyEdge* edge_of(SkyRegion sky) const {
-    const auto& edge = sky == own_sky(tetrad) ? home_edge : far_edge;
-    return edge && sky != SkyRegion::kIV ? &*edge : nullptr;
-  }
-  // Returns the table of such a sky, or null where there is no edge or no table was made.
-  const SkyTable* table_of(SkyRegion sky) const {
-    const auto& table = sky == own_sky(tetrad) ? home_sky : far_sky;
-    return table && sky != SkyRegion::kIV ? &*table : nullptr;
-  }
+  // Returns the first table of a sky, or null where it is not seen or no table was made.
+  const SkyTable* table_of(SkyRegion sky) const;
 };
 
-// Makes the optics at a radius.  For r = kFlatSpace there is no table at all.  The home sky is
-// there for rain at any r and for the outgoing tetrad outside, the far sky for rain at r < 2, and
-// the white hole always.  What is not there is not made.
+// Makes the optics at a radius of a Schwarzschild hole.  For r = kFlatSpace there is no table at
+// all.  The tetrad's own sky is there for rain at any r and for the outgoing tetrad outside, the
+// other one for rain at r < 2, and the white hole always.  What is not there is not made.
 HoleOptics make_hole_optics(const Radius& at, Tetrad tetrad, WantedSkies wanted);
 // Says whether a wanted table is not there, though it may be none that can be made.
 bool lacks_tables(const HoleOptics& optics, const WantedSkies& wanted);
@@ -75,9 +69,8 @@ struct WhiteHoleImages {
 WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int order,
                           double axis_blur);
 
-// Returns the primary image, in the frame of the tetrad, of a direction on the home sky, without
-// making a table.  It serves to aim a camera and is exact to 1e-14.  It is not for the outgoing
-// tetrad at r <= 2, in region IV, from where no sky is seen.
-TetradDirection primary_image(double r, Tetrad tetrad, const V3d& source);
+// Returns the primary image, in the frame of the optics, of a direction on the own sky of the tetrad,
+// without its table.  It serves to aim a camera and is exact to 1e-14.  There must be a zone.
+TetradDirection primary_image(const HoleOptics& optics, const V3d& source);
 
 }  // namespace domefall

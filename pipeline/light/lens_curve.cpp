@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/spacetime/schwarzschild.h"
-
 namespace domefall {
 namespace {
 
@@ -36,10 +34,10 @@ struct Exact {
 
 Exact exact(const SkyTable& table, double phi) {
   const double x = table.distance(phi);
-  const NullRay ray = table.ray_at_distance(x);
+  const ZoneRay ray = table.ray_at_distance(x);
   const double from_edge = 4 * std::atan(x / 2);
-  return {4 * std::atan(table.x_max() / 2) - from_edge, 1 / table.slope(x),
-          2 * ray.sin_half * ray.cos_half, one_plus_z(ray), from_edge};
+  return {4 * std::atan(table.x_max() / 2) - from_edge, 1 / table.slope(x), ray.sine(),
+          ray.one_plus_z, from_edge};
 }
 
 // Returns an upper bound of light() on the interval between a and c, in which b lies.  No sine
@@ -65,22 +63,16 @@ double light_of(const LensCurve::View& view, const PsiFrame& frame) {
 // values at the two ends.
 double most_light_from(const SkyTable& table, int order) {
   const Exact from = exact(table, order * pi);
-  const NullRay edge = table.ray_at_distance(0);
-  const Exact to{4 * std::atan(table.x_max() / 2), 0, 2 * edge.sin_half * edge.cos_half,
-                 one_plus_z(edge), 0};
+  const ZoneRay edge = table.ray_at_distance(0);
+  const Exact to{4 * std::atan(table.x_max() / 2), 0, edge.sine(), edge.one_plus_z, 0};
   return most_light(from, from, to);
 }
 
-// With s = sqrt(2/r), 1 + z is |1 - s cos(alpha)| = |(1 - s) cos^2(alpha/2) + (1 + s)
-// sin^2(alpha/2)|.  Beyond the first edge psi is pi - alpha, and beyond the second it is alpha.
-// The angle alpha counts from -R in rain and from R in the outgoing frame.  The difference 1 - s
-// is computed as (1 - s^2)/(1 + s), which does not cancel near the horizon.
+// Beyond an edge psi is pi - alpha, and before one it is alpha.
 PsiFrame psi_frame(const SkyTable& table) {
-  const NullRay ray = table.ray_at_distance(table.x_max());
-  const double s = Schwarzschild::free_fall_speed(ray.at.r),
-               less = Schwarzschild::below_light_speed(ray.at);
-  if (table.edge().sign > 0) return {less, 1 + s, 1};
-  return {1 + s, less, ray.outgoing ? 1.0 : -1.0};
+  const SkyZone& zone = table.zone();
+  if (zone.edge.sign > 0) return {zone.energy.cosine2, zone.energy.sine2, zone.inward};
+  return {zone.energy.sine2, zone.energy.cosine2, -zone.inward};
 }
 
 LensCurve::View LensCurve::operator()(double v) const {

@@ -1,40 +1,22 @@
-// The lens of a Schwarzschild hole for an observer in free fall, by the tables of HoleOptics.
+// The lens of a Schwarzschild hole for an observer in free fall.
 #pragma once
 
-#include "pipeline/light/hole_optics.h"
-#include "pipeline/light/lens.h"
+#include "pipeline/light/spherical_lens.h"
 
 namespace domefall {
 
-class SchwarzschildLens : public Lens {
+class SchwarzschildLens : public SphericalLens {
  public:
-  // A sky without a table is not known.
-  SchwarzschildLens(std::shared_ptr<const HoleOptics> optics, const M33d& sky_from_tetrad);
+  using SphericalLens::SphericalLens;
 
-  // The measured difference from single rays is at most 1e-15 radians on the sky and a relative
-  // 1e-14, because vector_math.h rounds differently from the C library.
-  void rays(const DirectionBatch& n, int count, ViewRayBatch& batch) const override;
-  ViewRay ray(const V3d& direction) const override;
-  std::vector<SkyBorder> borders() const override;
-  std::vector<ViewCurve> einstein_rings() const override;
-  std::unique_ptr<const SkyPoints> points(
-      SkyRegion sky, const std::optional<PointTolerance>& tolerance) const override;
-  V3d primary_image(const V3d& source) const override;
   std::optional<BodyImage> body_image(double null_time, const BodyMotion& motion, int order,
-                                      double radius) const override;
-  std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override;
-  std::optional<V3d> far_end(SkyRegion sky) const override;
-  std::vector<SkySample> divided(SkyRegion sky, int along, int around) const override;
-  // If the singularity is seen, its azimuth starts like a cube root about the axis.
-  std::vector<V3d> special_directions() const override;
-
- private:
-  ViewCircle circle_at(const HalfAngle& alpha) const;
-
-  std::shared_ptr<const HoleOptics> optics_;
-  M33d sky_from_tetrad_;
-  double s_, one_minus_s_;  // s = sqrt(2/r)
-  double inward_;           // +1: alpha counts from -R; -1 (outgoing tetrad): from +R
+                                      double radius) const override {
+    return image_of_body({optics().at, is_outgoing(optics().tetrad), false}, null_time, motion,
+                         order, radius);
+  }
+  std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override {
+    return std::make_unique<PlaneRays>(optics().at, optics().tetrad, null_time, false, rings);
+  }
 };
 
 }  // namespace domefall

@@ -100,8 +100,8 @@ Sweep by_table(const NullRay& ray, SkyRegion origin, int bits) {
     return {optics.white_hole->azimuth(place), optics.white_hole->slope(place)};
   }
   const SkyTable& table = *optics.table_of(origin);
-  const double x = table.distance_of(ray);
-  return {table.azimuth(x), -table.slope(x) * table.edge().sign};
+  const double x = distance_of(table.zone(), ray);
+  return {table.azimuth(x), -table.slope(x) * table.zone().edge.sign};
 }
 
 // ---- by integrators ----

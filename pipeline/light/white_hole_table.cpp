@@ -99,7 +99,7 @@ WhiteHoleTable::WhiteHoleTable(const Radius& at, Kind kind, int bits)
               ? bits + 1
               : bits) {
   const auto phi = [this](double s) { return exact_azimuth(ray_at_place(s)); };
-  if (has_edge()) edge_law_ = fit_edge_law(curve_.x_min(), phi);
+  if (has_edge()) edge_law_ = fit_edge_law(curve_.x_min(), 1, phi);
   if (is_outside())
     axis_law_ = fit_axis_law(1 / (1 + range_.high), [&](double y) { return phi((1 - y) / y); });
   if (kind_ == Kind::kWhiteHole) axis_law_ = fit_axis_law(curve_.x_min(), phi);

@@ -281,15 +281,15 @@ ExtremeResult star_on_the_axis() {
 // where it is whole turns minus phi_star (odd orders).
 ExtremeResult seventh_ghost() {
   const double r = 30;
-  const SkyTable table(r, Critical::kFirst);
+  const SkyTable table(schwarzschild_zone(r, Critical::kFirst));
   double worst = 0, nearest = 0;
   for (const double phi_star : {0.1, 1.0, 2.0, 3.0})
     for (int order = 0; order <= 7; ++order) {
       const double phi = order % 2 == 0 ? phi_star + order * pi : (order + 1) * pi - phi_star;
-      const NullRay ray = table.ray_at_distance(table.distance(phi));
-      worst = std::max(worst, std::abs(exact_azimuth(ray) - phi));
+      const double x = table.distance(phi);
+      worst = std::max(worst, std::abs(table.zone().azimuth(4 * std::atan(x / 2)) - phi));
       // After the loops this is the seventh ghost of the last star, whose azimuth is 8 pi - 3.
-      nearest = alpha_of(ray) - table.edge_angle();
+      nearest = table.ray_at_distance(x).half.angle() - table.zone().edge.half.angle();
     }
   return {
       worst,

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "pipeline/light/exact_azimuth.h"
+#include "pipeline/light/schwarzschild_zone.h"
 
 namespace domefall {
 namespace {
@@ -37,7 +38,7 @@ double exact_at(const TableCase& c, double x) {
 TEST(SkyTable, AgreesWithTheExactIntegralFromTheEdgeToTheFarEnd) {
   std::mt19937_64 random(7);
   for (const TableCase& c : table_cases()) {
-    const SkyTable table(c.r, c.edge, c.outgoing);
+    const SkyTable table(schwarzschild_zone(c.r, c.edge, c.outgoing));
     EXPECT_LE(table.node_count(), 1024u);
     std::uniform_real_distribution<double> decade(-13, 0);
     double worst = 0, where = 0, displaced = 0;
@@ -53,14 +54,14 @@ TEST(SkyTable, AgreesWithTheExactIntegralFromTheEdgeToTheFarEnd) {
 }
 
 TEST(SkyTable, ContinuesLogarithmicallyBelowItsRange) {
-  const SkyTable table(6, Critical::kFirst);
+  const SkyTable table(schwarzschild_zone(6, Critical::kFirst));
   for (double x : {1e-16, 1e-20, 1e-30})
     EXPECT_NEAR(table.azimuth(x), exact_at({6, Critical::kFirst}, x), 1e-9);
 }
 
 TEST(SkyTable, SlopeIsTheDerivativeOfTheExactIntegral) {
   for (const TableCase& c : table_cases()) {
-    const SkyTable table(c.r, c.edge, c.outgoing);
+    const SkyTable table(schwarzschild_zone(c.r, c.edge, c.outgoing));
     for (double part : {1e-9, 1e-6, 1e-3, 0.03, 0.3, 0.9}) {
       const double x = part * table.x_max(), h = 1e-3 * x;
       // Four-point central difference in delta.
@@ -75,7 +76,7 @@ TEST(SkyTable, SlopeIsTheDerivativeOfTheExactIntegral) {
 TEST(SkyTable, InverseReturnsToTheSameRay) {
   std::mt19937_64 random(8);
   for (const TableCase& c : table_cases()) {
-    const SkyTable table(c.r, c.edge, c.outgoing);
+    const SkyTable table(schwarzschild_zone(c.r, c.edge, c.outgoing));
     std::uniform_real_distribution<double> turns(0, 25);
     for (int k = 0; k < 500; ++k) {
       const double phi = turns(random);
@@ -87,7 +88,7 @@ TEST(SkyTable, InverseReturnsToTheSameRay) {
 
 TEST(SkyTable, FallsMonotonicallyAwayFromTheEdge) {
   for (const TableCase& c : table_cases()) {
-    const SkyTable table(c.r, c.edge, c.outgoing);
+    const SkyTable table(schwarzschild_zone(c.r, c.edge, c.outgoing));
     EXPECT_TRUE(table.curve().is_monotone(table.x_max())) << "r=" << c.r;
     double previous = 1e300;
     for (double y = std::log(table.x_max()) - 40; y < std::log(table.x_max()); y += 0.003) {
@@ -100,7 +101,7 @@ TEST(SkyTable, FallsMonotonicallyAwayFromTheEdge) {
 
 TEST(SkyTable, TheFarEndIsUndeflected) {
   for (const TableCase& c : table_cases()) {
-    const SkyTable table(c.r, c.edge, c.outgoing);
+    const SkyTable table(schwarzschild_zone(c.r, c.edge, c.outgoing));
     EXPECT_NEAR(table.azimuth(table.x_max()), 0, 1e-9) << c.r;
   }
 }

@@ -1,6 +1,6 @@
 // The captions of [Riazuelo] on stars and their ghosts, held against the shows of shows/paper/.
+#include "pipeline/light/schwarzschild_zone.h"
 #include "pipeline/light/silhouette.h"
-#include "pipeline/light/sky_table.h"
 #include "pipeline/sources/stars/star_catalogue.h"
 #include "tests/pipeline/render/paper_figures.h"
 
@@ -132,14 +132,13 @@ TEST(PaperFigZ, TheSeventhGhostIsInTheLastView) {
   const Panel first(show, 0), last(show, 7);
   // `beyond` is the angle in radians between the ray and the silhouette.
   const auto ghosts = [](const Panel& panel, double beyond) {
-    const SkyTable table(Radius(30.0), Critical::kFirst);
+    const SkyTable table(schwarzschild_zone(30.0, Critical::kFirst));
     // The angle from the hole is that of the observer at rest, the table's that of free fall.
     const double alpha = edge_from_rest(30) + beyond;
     const V3d n(-std::cos(alpha), 0, std::sin(alpha));
     const V3d m = to_tetrad(panel.state.observer.celerity, n).direction;
-    const double swept =
-        table.azimuth(SkyEdge(Radius(30.0), Critical::kFirst)
-                          .distance(std::sqrt((1 + m.x) / 2), std::sqrt((1 - m.x) / 2)));
+    const double swept = table.azimuth(
+        table.zone().edge.distance(std::sqrt((1 + m.x) / 2), std::sqrt((1 - m.x) / 2)));
     return swept / std::numbers::pi;
   };
   EXPECT_GT(ghosts(last, 0.3 * 160 * kMilliarcsecond), 4);

@@ -64,6 +64,7 @@ View view_of(const FrameState& s) {
   view.log_r = std::log(o.r);
   view.ev = s.settings.ev;
   view.marks = {on_dome(o, {-1, 0, 0}), on_dome(o, {1, 0, 0})};
+  const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {{}, false});
   const bool sky = !(is_outgoing(o.tetrad) && o.r <= 2);
   for (int k = 0; k < 27; ++k) {
     const int row = k / 3 % 3, layer = k / 9;
@@ -71,8 +72,7 @@ View view_of(const FrameState& s) {
     if (!(corner.length() > 0)) continue;
     const V3d source = apply_transposed(o.sky_from_tetrad, corner.normalized());
     const bool behind = std::acos(std::clamp(-source.x, -1.0, 1.0)) < kBehindHole;
-    view.marks.push_back(sky && !behind ? on_dome(o, primary_image(o.r, o.tetrad, source).v)
-                                        : Mark{});
+    view.marks.push_back(sky && !behind ? on_dome(o, primary_image(optics, source).v) : Mark{});
   }
   return view;
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/light/sky_table.h"
+#include "pipeline/light/schwarzschild_zone.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "tests/pipeline/render/scenes.h"
 
@@ -66,15 +66,15 @@ TEST(Amplification, IsThatOfAStarSeenThere) {
 // Each ring of the image covers as much of the sky as its amplification says.  Azimuths from 0 to
 // 3 pi/2 pass over the whole sky once, across an Einstein ring, and over half of it again.
 TEST(Amplification, AccountsForTheWholeSkyAcrossTheEinsteinRing) {
-  const SkyTable table(30.0, Critical::kFirst);
+  const SkyTable table(schwarzschild_zone(30.0, Critical::kFirst));
   const double last = table.distance(1.5 * pi);
-  const double from = table.edge_angle() + 4 * std::atan(last / 2);
+  const double from = table.zone().edge.half.angle() + 4 * std::atan(last / 2);
   for (const int rings : {200, 2000}) {
     const double width = (pi - from) / rings;
     double covered = 0;
     for (int k = 0; k < rings; ++k) {
       const double angle = from + (k + 0.5) * width;
-      const double x = 2 * std::tan((angle - table.edge_angle()) / 4);
+      const double x = 2 * std::tan((angle - table.zone().edge.half.angle()) / 4);
       const double solid_angle =
           2 * pi * (std::cos(angle - width / 2) - std::cos(angle + width / 2));
       covered +=

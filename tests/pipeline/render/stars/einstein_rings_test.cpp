@@ -38,11 +38,11 @@ double light_of_disc(const SkyTable& table, const SceneStar& star, double from_a
       const double cosine =
           (q * q + from_axis * from_axis - radius * radius) / (2 * q * std::max(from_axis, 1e-30));
       const double width = 2 * std::acos(std::clamp(cosine, -1.0, 1.0));
-      const NullRay ray = table.ray_at_distance(x);
-      const double g = 1 / one_plus_z(ray);
+      const ZoneRay ray = table.ray_at_distance(x);
+      const double g = 1 / ray.one_plus_z;
       const double shine =
           luminance(blackbody_colours().per_flux(star.temperature * g)) * g * g * g * g;
-      sum += 2 * ray.sin_half * ray.cos_half * step * width * shine;
+      sum += ray.sine() * step * width * shine;
     }
   }
   return sum * star.flux * scale / (pi * radius * radius);
@@ -98,7 +98,7 @@ TEST(EinsteinRings, InLineAreARing) {
   const V3d hole = apply_transposed(scene.state.observer.tetrad_from_camera, V3d(-1, 0, 0));
   const double pixel = largest_pixel_angle(scene.state.projection);
   const SkyTable& table = *scene.table(false);
-  const double ring = alpha_of(table.ray_at_distance(table.distance(pi)));
+  const double ring = table.ray_at_distance(table.distance(pi)).half.angle();
   std::vector<StarImage> outer;
   for (const StarImage& image : images) {
     const V3d n = direction_at(scene.state.projection, {image.x + 1.0, image.y + 1.0}).v;

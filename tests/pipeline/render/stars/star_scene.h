@@ -23,8 +23,10 @@ class StarScene {
     optics = make_hole_optics(at.r, at.tetrad, {});
   }
 
-  bool has(bool far) const { return (far ? optics.far_sky : optics.home_sky).has_value(); }
-  SkyRegion region(bool far) const { return optics.skies()[far ? 1 : 0]; }
+  bool has(bool far) const { return table(far) != nullptr; }
+  SkyRegion region(bool far) const {
+    return own_sky(far ? mirror_of(optics.tetrad) : optics.tetrad);
+  }
   const SkyTable* table(bool far) const { return optics.table_of(region(far)); }
   double exposure() const { return exposure_scale(state.settings); }
   PointSpread point_spread() const { return {show.point_spread, state.projection, exposure()}; }

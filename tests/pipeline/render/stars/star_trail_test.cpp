@@ -26,7 +26,7 @@ const std::vector<TrailCase> kCases{
     {3.5, V3d(1, 0.002, 0.001), V3d(0, 0.004, -0.003)},  // above the observer
 };
 
-SkyTable table_at(double r) { return *make_hole_optics(r, Tetrad::kRain, {}).home_sky; }
+SkyTable table_at(double r) { return SkyTable(schwarzschild_zone(r, Critical::kFirst)); }
 
 StarTrail::ImageOf image_at(const SkyTable& table, int order) {
   return [&table, order](const V3d& source) { return image_of(&table, source, order, 0); };

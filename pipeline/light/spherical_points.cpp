@@ -1,4 +1,4 @@
-#include "pipeline/light/schwarzschild_points.h"
+#include "pipeline/light/spherical_points.h"
 
 #include <cmath>
 
@@ -88,34 +88,33 @@ Dispatched<bend_all_loop> bend_all;
 
 }  // namespace
 
-SchwarzschildPoints::SchwarzschildPoints(const SkyTable& table,
-                                         const std::optional<PointTolerance>& tolerance)
+SphericalPoints::SphericalPoints(const SkyTable& table,
+                                 const std::optional<PointTolerance>& tolerance)
     : table_(table), psi_(psi_frame(table)) {
   if (!tolerance) return;
   for (const int intervals : kIntervals)
     curves_.emplace_back(table, static_cast<int>(curves_.size()), intervals, *tolerance);
 }
 
-SkyImage SchwarzschildPoints::image(const V3d& source, int order, double blur) const {
+SkyImage SphericalPoints::image(const V3d& source, int order, double blur) const {
   return image_of(&table_, source, order, blur);
 }
 
-std::vector<SkyImage> SchwarzschildPoints::arc(
-    const V3d& source, int order, double radius,
-    const std::function<double(const V3d&)>& spacing) const {
+std::vector<SkyImage> SphericalPoints::arc(const V3d& source, int order, double radius,
+                                           const std::function<double(const V3d&)>& spacing) const {
   return arc_of(table_, source, order, radius, spacing);
 }
 
-double SchwarzschildPoints::most_light(int order) const {
+double SphericalPoints::most_light(int order) const {
   return order < orders_in_batches()
              ? curves_[static_cast<std::size_t>(order / 2)].largest_bound(order % 2 != 0)
              : most_light_from(table_, order);
 }
 
-void SchwarzschildPoints::locate(PointBatch& points, int count) const { to_lens(count, points); }
+void SphericalPoints::locate(PointBatch& points, int count) const { to_lens(count, points); }
 
-void SchwarzschildPoints::bounds(int order, const PointBatch& points, const int* chosen, int count,
-                                 float* out) const {
+void SphericalPoints::bounds(int order, const PointBatch& points, const int* chosen, int count,
+                             float* out) const {
   const LensCurve& curve = curves_[static_cast<std::size_t>(order / 2)];
   const float* bounds = curve.bounds();
   const double side = side_of(order);
@@ -123,8 +122,8 @@ void SchwarzschildPoints::bounds(int order, const PointBatch& points, const int*
     out[n] = bounds[curve.interval_of(side * points.v[static_cast<std::size_t>(chosen[n])])];
 }
 
-void SchwarzschildPoints::images(int order, const PointBatch& points, int count,
-                                 PointImageBatch& images) const {
+void SphericalPoints::images(int order, const PointBatch& points, int count,
+                             PointImageBatch& images) const {
   PointBatch::Column<double> psi, slope;
   const LensCurve& curve = curves_[static_cast<std::size_t>(order / 2)];
   look_up(curve.lookup(), side_of(order), points.v.data(), count, psi.data(), slope.data());

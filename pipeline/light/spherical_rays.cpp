@@ -5,8 +5,8 @@
 #include "pipeline/base/simd/dispatch.h"
 #include "pipeline/base/simd/vector_math.h"
 #include "pipeline/light/azimuth_batch.h"
-#include "pipeline/light/schwarzschild_lens.h"
 #include "pipeline/light/singularity_light.h"
+#include "pipeline/light/spherical_lens.h"
 
 namespace domefall {
 namespace {
@@ -15,8 +15,8 @@ namespace {
 // compiler knows that no store of the loop alters it.
 struct Observer {
   M33d sky_from_tetrad;
-  double s, one_minus_s;  // s = sqrt(2/r)
-  double inward;          // +1: alpha counts from -R; -1 (outgoing tetrad): from +R
+  ViewEnergy energy;
+  double inward;  // of SkyZone
 };
 
 // TetradRays holds the sine of each ray's alpha, and the sine and cosine of alpha/2.
@@ -32,16 +32,12 @@ struct LensedRays {
 };
 static_assert(AzimuthBatch::kSize == ViewRayBatch::kSize);
 // These are the curves of an AzimuthBatch, in the order in which rays are assigned to them: the two
-// skies in the order of HoleOptics::skies, and the past singularity of the white hole for all rays
-// that neither sky has.
+// parts of HoleOptics, and the past singularity of the white hole for all rays that neither has.
 constexpr int kFirst = 0, kSecond = 1, kHole = 2;
 
 // ---- angles from the hole ----
 
-// Sets the frequency ratio of light from infinity too.  For the observer in free fall its inverse is
-// 1 + z = |E|, with
-//     E = 1 - s cos(alpha) = (1 + s) sin^2(alpha/2) + (1 - s) cos^2(alpha/2).
-// Here 1 - s comes from the altitude above the horizon and so keeps its digits near r = 2.
+// Sets the frequency ratio of light from a sky too.
 [[gnu::always_inline]] inline void find_angles_loop(const Observer& observer,
                                                     const DirectionBatch& __restrict n, int count,
                                                     TetradRays& __restrict rays,
@@ -50,8 +46,8 @@ constexpr int kFirst = 0, kSecond = 1, kHole = 2;
   for (int k = 0; k < count; ++k) {
     const double sine = std::sqrt(n.y[k] * n.y[k] + n.z[k] * n.z[k]);
     const HalfAngle half = half_angle(-o.inward * n.x[k], sine);
-    const double energy =
-        std::abs((1 + o.s) * half.sine * half.sine + o.one_minus_s * half.cosine * half.cosine);
+    const double energy = std::abs(o.energy.sine2 * half.sine * half.sine +
+                                   o.energy.cosine2 * half.cosine * half.cosine);
     rays.sine[k] = sine;
     rays.sin_half[k] = half.sine;
     rays.cos_half[k] = half.cosine;
@@ -145,10 +141,12 @@ Dispatched<set_slopes_loop> set_slopes;
 }
 Dispatched<set_hole_slopes_loop> set_hole_slopes;
 
-// Returns the tables of the first and the second sky, each of which may be null.
+// Returns the tables of the first and the second part, each of which may be null.
 std::array<const SkyTable*, 2> tables_of(const HoleOptics& optics) {
-  const auto [first, second] = optics.skies();
-  return {optics.table_of(first), optics.table_of(second)};
+  std::array<const SkyTable*, 2> tables{};
+  for (std::size_t k = 0; k < optics.parts.size(); ++k)
+    if (optics.parts[k].table) tables[k] = &*optics.parts[k].table;
+  return tables;
 }
 
 // CurveRanges holds the coordinates between which each curve is tabulated.
@@ -277,29 +275,29 @@ Dispatched<onto_sky_loop> onto_sky;
 
 }  // namespace
 
-void SchwarzschildLens::rays(const DirectionBatch& n, int count, ViewRayBatch& batch) const {
-  const Observer observer{sky_from_tetrad_, s_, one_minus_s_, inward_};
+void SphericalLens::rays(const DirectionBatch& n, int count, ViewRayBatch& batch) const {
+  const Observer observer{sky_from_tetrad_, optics_->energy, optics_->inward};
   TetradRays rays;
   find_angles(observer, n, count, rays, batch);
   LensedRays lensed;
   double* to_edge = batch.to_edge.data();
-  const auto [first, second] = optics_->skies();
-  const auto values_of = [&](const SkyEdge& edge, SkyRegion sky) {
-    return EdgeValues{edge, optics_->table_of(sky) || optics_->white_hole};
+  const std::vector<SkyPart>& parts = optics_->parts;
+  const auto values_of = [&](const SkyPart& part) {
+    return EdgeValues{part.zone.edge, part.table || optics_->white_hole};
   };
-  if (const SkyEdge* edge = optics_->edge_of(first)) {
-    assign_first(values_of(*edge, first), rays, count, lensed, to_edge);
+  if (!parts.empty()) {
+    assign_first(values_of(parts[0]), rays, count, lensed, to_edge);
   } else {
     std::fill_n(lensed.azimuths.curve.begin(), count, std::int64_t{kHole});
     std::fill_n(lensed.azimuths.x.begin(), count, -1.0);
     std::fill_n(to_edge, count, HUGE_VAL);
   }
-  if (const SkyEdge* edge = optics_->edge_of(second))
-    assign_second(values_of(*edge, second), rays, count, lensed, to_edge);
+  if (parts.size() > 1) assign_second(values_of(parts[1]), rays, count, lensed, to_edge);
+  std::array<SkyRegion, AzimuthBatch::kCurves> skies;
+  skies.fill(SkyRegion::kIV);
+  for (std::size_t k = 0; k < parts.size(); ++k) skies[k] = parts[k].sky;
   for (int k = 0; k < count; ++k)
-    batch.sky[k] = lensed.azimuths.curve[k] == kFirst    ? first
-                   : lensed.azimuths.curve[k] == kSecond ? second
-                                                         : SkyRegion::kIV;
+    batch.sky[k] = skies[static_cast<std::size_t>(lensed.azimuths.curve[k])];
   set_azimuths(*optics_, rays, count, lensed, batch);
   if (optics_->emission_times) add_emission_times(*optics_, rays, lensed, count, batch);
   onto_sky(observer, n, rays, lensed, count, batch);

@@ -1,5 +1,5 @@
-// The images of points of a sky through a Schwarzschild hole, by the sky's table and curves that are
-// made of it.
+// The images of points of a sky through a spherical lens, by the sky's table and curves that are made
+// of it.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace domefall {
 
-class SchwarzschildPoints : public SkyPoints {
+class SphericalPoints : public SkyPoints {
  public:
   // The table must outlive this object.  Without a tolerance no curves are made.
-  SchwarzschildPoints(const SkyTable& table, const std::optional<PointTolerance>& tolerance);
+  SphericalPoints(const SkyTable& table, const std::optional<PointTolerance>& tolerance);
 
   int orders() const override { return 24; }
   bool has_axis() const override { return true; }

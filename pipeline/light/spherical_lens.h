@@ -1,0 +1,38 @@
+// The lens of a static, spherical space, by the tables of HoleOptics.
+#pragma once
+
+#include "pipeline/light/hole_optics.h"
+#include "pipeline/light/lens.h"
+
+namespace domefall {
+
+class SphericalLens : public Lens {
+ public:
+  // A sky without a table is not known.
+  SphericalLens(std::shared_ptr<const HoleOptics> optics, const M33d& sky_from_tetrad);
+
+  // The measured difference from single rays is at most 1e-15 radians on the sky and a relative
+  // 1e-14, because vector_math.h rounds differently from the C library.
+  void rays(const DirectionBatch& n, int count, ViewRayBatch& batch) const override;
+  ViewRay ray(const V3d& direction) const override;
+  std::vector<SkyBorder> borders() const override;
+  std::vector<ViewCurve> einstein_rings() const override;
+  std::unique_ptr<const SkyPoints> points(
+      SkyRegion sky, const std::optional<PointTolerance>& tolerance) const override;
+  V3d primary_image(const V3d& source) const override;
+  std::optional<V3d> far_end(SkyRegion sky) const override;
+  std::vector<SkySample> divided(SkyRegion sky, int along, int around) const override;
+  // If the singularity is seen, its azimuth starts like a cube root about the axis.
+  std::vector<V3d> special_directions() const override;
+
+ protected:
+  const HoleOptics& optics() const { return *optics_; }
+
+ private:
+  ViewCircle circle_at(const HalfAngle& alpha) const;
+
+  std::shared_ptr<const HoleOptics> optics_;
+  M33d sky_from_tetrad_;
+};
+
+}  // namespace domefall
