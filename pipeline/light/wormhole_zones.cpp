@@ -1,0 +1,57 @@
+#include "pipeline/light/wormhole_zones.h"
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace domefall {
+namespace {
+
+SkyRegion sky_of(Region side) { return side == Region::kIII ? SkyRegion::kIII : SkyRegion::kI; }
+
+}  // namespace
+
+double WormholeZone::azimuth(double distance) const {
+  return wormhole_azimuth(wormhole, l, sign * distance);
+}
+
+double WormholeZone::bent_azimuth(double distance) const {
+  Wormhole bent = wormhole;
+  bent.length = 0;
+  return wormhole_azimuth(bent, std::copysign(wormhole.beyond_mouth(l), l), sign * distance);
+}
+
+double WormholeZone::straight_azimuth(double distance) const {
+  return cylinder_azimuth(wormhole, l, sign * distance);
+}
+
+double WormholeZone::distance_of(double phi) const {
+  // In the logarithm of the distance a law of logarithms is a straight line, and a power is convex.
+  const auto off = [&](double log_distance) { return azimuth(std::exp(log_distance)) - phi; };
+  double high = std::log(reach), low = high - 1, at_high = -phi, at_low = off(low);
+  while (at_low < 0) {
+    high = low, at_high = at_low;
+    low -= 4;
+    at_low = off(low);
+  }
+  std::uintmax_t steps = 100;
+  const auto found = boost::math::tools::toms748_solve(
+      off, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(50), steps);
+  return std::exp((found.first + found.second) / 2);
+}
+
+double WormholeZone::einstein_ring(int half_turns) const {
+  return distance_of(half_turns * std::numbers::pi);
+}
+
+std::array<WormholeZone, 2> wormhole_zones(const Wormhole& wormhole, double l) {
+  const HalfAngle edge = throat_edge(wormhole, l);
+  const double alpha = 2 * std::atan2(edge.sine, edge.cosine);
+  const double logarithm = 1 / std::sqrt(wormhole.curvature_at_throat());
+  const Region side = Wormhole::side(l);
+  return {{{wormhole, l, sky_of(side), edge, 1, std::numbers::pi - alpha, logarithm},
+           {wormhole, l, sky_of(mirror_of(side)), edge, -1, alpha, logarithm}}};
+}
+
+}  // namespace domefall
