@@ -26,21 +26,23 @@ FlightTable::FlightTable(const std::function<Times(double)>& rates, std::vector<
     panel.from = whole_;
     whole_.tau += panel_sum(panel.tau, 1);
     whole_.null_time += panel_sum(panel.null_time, 1);
+    whole_.azimuth += panel_sum(panel.azimuth, 1);
   }
 }
 
 void FlightTable::append(const std::function<Times(double)>& rates, double low, double high,
                          int depth) {
-  Panel panel{low, high, {}, {}, {}};
-  PanelValues tau{}, null_time{};
+  Panel panel{low, high, {}, {}, {}, {}};
+  PanelValues tau{}, null_time{}, azimuth{};
   const double middle = (low + high) / 2, half = (high - low) / 2;
   for (std::size_t j = 0; j < kPanelTerms; ++j) {
     const Times rate = rates(middle + half * panel_node(j));
-    tau[j] = rate.tau, null_time[j] = rate.null_time;
+    tau[j] = rate.tau, null_time[j] = rate.null_time, azimuth[j] = rate.azimuth;
   }
-  const bool resolved = integrate_panel(tau, half, kFlightTolerance, panel.tau);
-  if ((integrate_panel(null_time, half, kFlightTolerance, panel.null_time) && resolved) ||
-      depth == kFlightHalvings) {
+  bool resolved = integrate_panel(tau, half, kFlightTolerance, panel.tau);
+  resolved &= integrate_panel(null_time, half, kFlightTolerance, panel.null_time);
+  resolved &= integrate_panel(azimuth, half, kFlightTolerance, panel.azimuth);
+  if (resolved || depth == kFlightHalvings) {
     panels_.push_back(panel);
     return;
   }
@@ -56,7 +58,8 @@ FlightTable::Times FlightTable::to_go(double q) const {
   const Panel& panel = *(after - 1);
   const double part = ((q - panel.low) - (panel.high - q)) / (panel.high - panel.low);
   return {panel.from.tau + panel_sum(panel.tau, part),
-          panel.from.null_time + panel_sum(panel.null_time, part)};
+          panel.from.null_time + panel_sum(panel.null_time, part),
+          panel.from.azimuth + panel_sum(panel.azimuth, part)};
 }
 
 double FlightTable::parameter(double tau_to_go) const {

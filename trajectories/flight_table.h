@@ -1,5 +1,5 @@
-// A FlightTable holds the proper time and the null time to the end of a flight with engines, along
-// a parameter q that is 0 at the end and 1 at the beginning.  Both are plain quadratures, done
+// A FlightTable holds the proper time, the null time and the azimuth to the end of a flight, along a
+// parameter q that is 0 at the end and 1 at the beginning.  They are plain quadratures, done
 // once, as Chebyshev series over panels that are halved until the last terms of the integrands
 // vanish.  They count from the end, since a flight comes from far away, slowly, to where things are
 // quick.
@@ -16,9 +16,10 @@ class FlightTable {
  public:
   struct Times {
     double tau = 0, null_time = 0;  // M
+    double azimuth = 0;             // radians
   };
 
-  // Takes the derivatives of both times by q, which are positive and smooth but for a kink at each
+  // Takes the derivatives by q, of which that of tau is positive.  They are smooth but for a kink at each
   // of `kinks`, in (0, 1) and in their order.  Throws std::domain_error if the panels become too
   // many, which no flight has been seen to need.
   FlightTable(const std::function<Times(double)>& rates, std::vector<double> kinks = {});
@@ -32,7 +33,7 @@ class FlightTable {
   struct Panel {
     double low, high;
     Times from;
-    PanelIntegral tau, null_time;
+    PanelIntegral tau, null_time, azimuth;
   };
 
   void append(const std::function<Times(double)>& rates, double low, double high, int depth);

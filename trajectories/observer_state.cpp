@@ -9,11 +9,11 @@ Celerity<ReferenceTetrad> resting_celerity(const Spacetime& spacetime, double r,
   return {is_outgoing(tetrad) ? -celerity : celerity, 0, 0};
 }
 
-// The T of rain has dr/dtau = -s, and that of the outgoing tetrad has s.
 double radial_rate(const Spacetime& spacetime, double r, Tetrad tetrad,
                    const Celerity<ReferenceTetrad>& celerity) {
-  const double s = spacetime.free_fall_speed(r), gamma = gamma_of(celerity);
-  return celerity.x + (is_outgoing(tetrad) ? s * gamma : -s * gamma);
+  const StaticTime t = spacetime.static_time(r);
+  const double inward = t.along_r * gamma_of(celerity);
+  return t.along_t * celerity.x + (is_outgoing(tetrad) ? inward : -inward);
 }
 
 Celerity<RestFrame> static_celerity(const ObserverState& o) {
@@ -22,13 +22,14 @@ Celerity<RestFrame> static_celerity(const ObserverState& o) {
   return {rate / std::sqrt(o.spacetime.lapse_squared(o.r)), o.celerity.y, o.celerity.z};
 }
 
-// The two tetrads move at s and -s against the observer at rest, so they recede from each other at
-// 2s/(1 + s^2).  The gamma of this velocity is (1 + s^2)/(1 - s^2).
+// E and dr/dtau in the outgoing tetrad give w in rain, with f = along_t^2 - along_r^2.
 Celerity<RainTetrad> rain_celerity(const Spacetime& spacetime, double r, Tetrad tetrad,
                                    const Celerity<ReferenceTetrad>& celerity) {
   if (!is_outgoing(tetrad)) return Celerity<RainTetrad>(celerity);
-  const double s = spacetime.free_fall_speed(r), below = (1 - s) * (1 + s);
-  return {((1 + s * s) * celerity.x + 2 * s * gamma_of(celerity)) / below, celerity.y, celerity.z};
+  const auto [t, s] = spacetime.static_time(r);
+  const double below = (t - s) * (t + s);
+  return {((t * t + s * s) * celerity.x + 2 * s * t * gamma_of(celerity)) / below, celerity.y,
+          celerity.z};
 }
 
 }  // namespace domefall

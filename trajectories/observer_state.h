@@ -12,8 +12,10 @@ namespace domefall {
 struct ObserverState {
   Spacetime spacetime;
   Region region = Region::kI;
-  Tetrad tetrad = Tetrad::kRain;  // has_tetrad(region, tetrad)
-  double r = kFlatSpace;          // units of M, > 0; kFlatSpace without a black hole
+  // has_tetrad(region, tetrad); in a wormhole it is kRain on both sides, with R towards region I
+  Tetrad tetrad = Tetrad::kRain;
+  int universe = 0;       // of those that follow each other through a charged hole
+  double r = kFlatSpace;  // units of M, > 0; kFlatSpace without a black hole
   double proper_time =
       0;  // units of M (seconds in flat space), since the start of the segment's orbit
   // This is v = t + r* (rain) or u = t - r* (outgoing frame) of the observer, with r* = r + 2
@@ -40,7 +42,7 @@ inline PerSky<bool> seen_skies(const ObserverState& o) {
 }
 
 // Says whether there is an observer at rest in r at the same place.
-inline bool has_rest(const ObserverState& o) { return o.r > o.spacetime.horizon(); }
+inline bool has_rest(const ObserverState& o) { return o.spacetime.lapse_squared(o.r) > 0; }
 
 // Returns the celerity of what is at rest in r (outside) or in t (inside a horizon).
 Celerity<ReferenceTetrad> resting_celerity(const Spacetime& spacetime, double r, Tetrad tetrad);

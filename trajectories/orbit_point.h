@@ -21,6 +21,7 @@ struct OrbitPoint {
   // trajectory's own, the same for its tetrads, so v - u = 2 r* where it changes from one to the
   // other.
   DoubleDouble null_time{};
+  int universe = 0;  // of those that follow each other through a charged hole
 };
 
 }  // namespace domefall

@@ -11,9 +11,12 @@ Celerity<ReferenceTetrad> resting_celerity(double r, Tetrad tetrad) {
 }
 
 OrbitPoint StaticObserver::at(const ProperTime& tau) const {
-  return {
-      Region::kI, Tetrad::kRain,       r,
-      0,          resting_celerity(r), double(tau) / std::sqrt(Schwarzschild::lapse_squared(r))};
+  return {Region::kI,
+          Tetrad::kRain,
+          r,
+          0,
+          resting_celerity(spacetime, r, Tetrad::kRain),
+          double(tau) / std::sqrt(spacetime.lapse_squared(r))};
 }
 
 }  // namespace domefall

@@ -8,7 +8,8 @@
 namespace domefall {
 
 struct StaticObserver {
-  double r = kFlatSpace;  // > 2
+  double r = kFlatSpace;  // where spacetime.lapse_squared(r) > 0
+  Spacetime spacetime = Schwarzschild{};
 
   OrbitPoint at(const ProperTime& tau) const;
   double held_radius() const { return r; }

@@ -15,6 +15,7 @@
 
 #include "trajectories/accelerated_path.h"
 #include "trajectories/braked_flight.h"
+#include "trajectories/charged_orbit.h"
 #include "trajectories/circular_orbit.h"
 #include "trajectories/geodesic.h"
 #include "trajectories/given_velocity.h"
@@ -27,8 +28,9 @@
 
 namespace domefall {
 
-using Trajectory = std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity,
-                                SpeedRamp, Geodesic, AcceleratedPath, Spiral, BrakedFlight>;
+using Trajectory =
+    std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity, SpeedRamp, Geodesic,
+                 AcceleratedPath, Spiral, BrakedFlight, ChargedOrbit, ChargedCircle>;
 
 // Returns the point of the orbit at proper time tau (units of M, or seconds in flat space) since
 // its start.  tau must be in (birth, lifetime), for a radial infall in [0, lifetime).

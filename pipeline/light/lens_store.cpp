@@ -1,47 +1,57 @@
 #include "pipeline/light/lens_store.h"
 
+#include "pipeline/light/charged_lens.h"
 #include "pipeline/light/hole_optics.h"
 #include "pipeline/light/schwarzschild_lens.h"
 #include "pipeline/light/straight_lens.h"
+#include "pipeline/light/wormhole_lens.h"
 
 namespace domefall {
+namespace {
 
-// Each kind of spacetime has its lens, or none is made of it.
+// Each kind of spacetime has its optics and its lens, or none is made of it.
+HoleOptics optics_of(const FlatSpace&, const ObserverState&) { return {}; }
+HoleOptics optics_of(const Schwarzschild&, const ObserverState& observer) {
+  return make_hole_optics(observer.r, observer.tetrad, {{}, false});
+}
+HoleOptics optics_of(const ChargedHole& hole, const ObserverState& observer) {
+  return make_charged_optics(hole, observer);
+}
+HoleOptics optics_of(const Wormhole& wormhole, const ObserverState& observer) {
+  return make_wormhole_optics(wormhole, observer);
+}
+
+}  // namespace
+
 std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
                                             const WantedSkies& wanted,
                                             const std::optional<StraightLight>& straight) {
-  if (straight) return lens_of(FlatSpace{}, observer, wanted, *straight);
-  return std::visit(
-      [&](const auto& kind) {
-        return lens_of(kind, observer, wanted, StraightLight{{}, 1});
-      },
-      observer.spacetime.kind());
-}
-
-std::shared_ptr<const Lens> LensStore::lens_of(const FlatSpace&, const ObserverState& observer,
-                                               const WantedSkies&, const StraightLight& light) {
-  kept_.reset();
-  tables_made_ = 0;
-  return std::make_shared<StraightLens>(observer.r, observer.tetrad, observer.sky_from_tetrad,
-                                        light.rest, light.shift);
-}
-
-std::shared_ptr<const Lens> LensStore::lens_of(const Schwarzschild&, const ObserverState& observer,
-                                               const WantedSkies& wanted, const StraightLight&) {
-  const double r = observer.r;
-  // Tables depend on the radius and the tetrad only.
-  const bool same = kept_ && kept_->at.r == r && kept_->tetrad == observer.tetrad;
+  const bool flat = observer.spacetime.is_flat();
+  if (straight || flat) {
+    kept_.reset();
+    place_.reset();
+    tables_made_ = 0;
+    const StraightLight light = straight.value_or(StraightLight{{}, 1});
+    return std::make_shared<StraightLens>(observer.r, observer.tetrad, observer.sky_from_tetrad,
+                                          light.rest, light.shift);
+  }
+  const Place place{observer.spacetime, observer.region, observer.tetrad, observer.universe,
+                    observer.r};
+  const bool same = place_ == place;
   const int before = same ? table_count(*kept_) : 0;
   if (!same) {
-    kept_ = std::make_shared<HoleOptics>(make_hole_optics(r, observer.tetrad, wanted));
-  } else {
+    kept_ = std::make_shared<HoleOptics>(std::visit(
+        [&](const auto& kind) { return optics_of(kind, observer); }, observer.spacetime.kind()));
+    place_ = place;
+  } else if (lacks_tables(*kept_, wanted) && kept_.use_count() > 1) {
     // A lens that is still in use goes on to know the skies that it was made for.
-    if (lacks_tables(*kept_, wanted) && kept_.use_count() > 1)
-      kept_ = std::make_shared<HoleOptics>(*kept_);
-    add_tables(*kept_, wanted);
+    kept_ = std::make_shared<HoleOptics>(*kept_);
   }
+  add_tables(*kept_, wanted);
   tables_made_ = table_count(*kept_) - before;
-  return std::make_shared<SchwarzschildLens>(kept_, observer.sky_from_tetrad);
+  if (observer.spacetime.is<Schwarzschild>())
+    return std::make_shared<SchwarzschildLens>(kept_, observer.sky_from_tetrad);
+  return std::make_shared<SphericalLens>(kept_, observer.sky_from_tetrad);
 }
 
 std::size_t LensStore::table_nodes() const { return kept_ ? node_count(*kept_) : 0; }

@@ -1,4 +1,4 @@
-// A LensStore makes the lens of each observer, and keeps the tables for one radius while observers
+// A LensStore makes the lens of each observer, and keeps the tables for one place while observers
 // stay there.
 #pragma once
 
@@ -31,13 +31,19 @@ class LensStore {
   std::size_t table_nodes() const;
 
  private:
-  // Makes the lens of one kind of spacetime; a kind without one does not compile.
-  std::shared_ptr<const Lens> lens_of(const FlatSpace& kind, const ObserverState& observer,
-                                      const WantedSkies& wanted, const StraightLight& light);
-  std::shared_ptr<const Lens> lens_of(const Schwarzschild& kind, const ObserverState& observer,
-                                      const WantedSkies& wanted, const StraightLight& light);
+  // Tables depend on these only.
+  struct Place {
+    Spacetime spacetime;
+    Region region;
+    Tetrad tetrad;
+    int universe;
+    double r;
+
+    bool operator==(const Place&) const = default;
+  };
 
   std::shared_ptr<HoleOptics> kept_;
+  std::optional<Place> place_;  // of what is kept
   int tables_made_ = 0;
 };
 

@@ -34,9 +34,11 @@ SkyTable::SkyTable(const SkyZone& zone, int bits)
       x_max_(2 * std::tan(zone.reach / 4)),
       curve_(
           std::min(kInnermost * zone.least, x_max_ / 4), x_max_,
-          [this](double x) { return continued_azimuth(x); }, zone.uneven ? bits + 1 : bits),
-      law_(fit_edge_law(curve_.x_min(), zone.logarithm,
-                        [this](double x) { return continued_azimuth(x); })) {}
+          [this](double x) { return continued_azimuth(x); }, zone.uneven ? bits + 1 : bits) {
+  if (zone.logarithm > 0)
+    law_ = fit_edge_law(curve_.x_min(), zone.logarithm,
+                        [this](double x) { return continued_azimuth(x); });
+}
 
 ZoneRay SkyTable::ray_at_distance(double x) const {
   return zone_.ray(std::min(4 * std::atan(x / 2), zone_.reach));
@@ -50,13 +52,27 @@ double SkyTable::continued_azimuth(double x) const {
 }
 
 double SkyTable::slope(double x) const {
-  const double by_x = x < curve_.x_min() ? law_.slope(x) : curve_.at(x).first;
+  constexpr double kStep = 1e-4;  // of x, for a central difference
+  const double by_x =
+      x >= curve_.x_min() ? curve_.at(x).first
+      : law_              ? law_->slope(x)
+             : (beside_edge(x * (1 + kStep)) - beside_edge(x * (1 - kStep))) / (2 * kStep * x);
   return std::abs(by_x) * (1 + x * x / 4) / 2;
 }
 
 double SkyTable::distance(double phi) const {
   if (phi <= 0) return x_max_;
-  if (phi > law_.azimuth(law_.x_min)) return law_.distance(phi);
+  const double x_min = curve_.x_min();
+  if (law_ && phi > law_->azimuth(x_min)) return law_->distance(phi);
+  if (phi > beside_edge(x_min)) {
+    // In the logarithm of x, of which a double has no more than these.
+    double low = std::log(1e-300), high = std::log(x_min);
+    for (int step = 0; step < 80; ++step) {
+      const double middle = (low + high) / 2;
+      (beside_edge(std::exp(middle)) > phi ? low : high) = middle;
+    }
+    return std::exp((low + high) / 2);
+  }
   return std::min(curve_.inverse(phi, x_max_), x_max_);
 }
 

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "pipeline/light/half_angle.h"
 #include "pipeline/light/octave_curve.h"
@@ -84,7 +85,7 @@ class SkyTable {
 
   // Returns the azimuth phi (radians) at x in (0, x_max()].  Measured near a Schwarzschild hole over
   // 1e-6 <= r <= 1e8, |error| < 1e-9 for every distance to the edge above 1e-12.
-  double azimuth(double x) const { return x < curve_.x_min() ? law_.azimuth(x) : curve_.value(x); }
+  double azimuth(double x) const { return x < curve_.x_min() ? beside_edge(x) : curve_.value(x); }
 
   // Returns d phi/d alpha in absolute value.  The measured relative error is < 1e-7.
   double slope(double x) const;
@@ -105,11 +106,12 @@ class SkyTable {
 
  private:
   double continued_azimuth(double x) const;
+  double beside_edge(double x) const { return law_ ? law_->azimuth(x) : continued_azimuth(x); }
 
   SkyZone zone_;
   double x_max_;
   OctaveCurve curve_;
-  EdgeLaw law_;
+  std::optional<EdgeLaw> law_;  // without it the exact azimuth is asked
 };
 
 }  // namespace domefall

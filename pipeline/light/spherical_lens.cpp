@@ -45,11 +45,11 @@ V3d SphericalLens::primary_image(const V3d& source) const {
   return domefall::primary_image(*optics_, source).v;
 }
 
-// The far ends of both skies lie on the axis, that of the tetrad's own sky outward and that of the
-// other one inward.
+// The far end of a zone lies on the axis.
 std::optional<V3d> SphericalLens::far_end(SkyRegion sky) const {
-  if (!optics_->table_of(sky)) return std::nullopt;
-  return V3d(sky == own_sky(optics_->tetrad) ? 1 : -1, 0, 0);
+  for (const SkyPart& part : optics_->parts)
+    if (part.sky == sky && part.table) return V3d(part.zone.edge.sign * optics_->inward, 0, 0);
+  return std::nullopt;
 }
 
 // The samples are evenly spaced in the ray's angle from the edge, which is 4 atan(x/2) for the

@@ -20,6 +20,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/light/null_ray.h"
 #include "pipeline/light/octave_curve.h"
 #include "pipeline/light/sky_table.h"
 

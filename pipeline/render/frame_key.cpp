@@ -180,11 +180,11 @@ std::string FrameKeys::instant(const FrameState& state) const {
   digest.add(rounded_for_key(state.settings.ev));
   add_settings(digest, state.settings.sky[SkyRegion::kI]);
   // Settings of a sky enter the keys of the frames that can see it, and of no others.
-  if (o.region == Region::kII || o.region == Region::kIII) {
+  if (o.region == Region::kII || seen_skies(o)[SkyRegion::kIII]) {
     digest.add(sky_three_);
     add_settings(digest, state.settings.sky[SkyRegion::kIII]);
   }
-  if (!is_flat(o)) {
+  if (o.spacetime.is<Schwarzschild>()) {
     digest.add(sky_four_);
     add_settings(digest, state.settings.sky[SkyRegion::kIV]);
   }
@@ -204,7 +204,7 @@ std::string FrameKeys::instant(const FrameState& state) const {
     }
     for (const double v : {state.sky_turn.x, state.sky_turn.y, state.sky_turn.z}) digest.add(v);
   }
-  if (!is_flat(o) && std::holds_alternative<RingsSky>(singularity))
+  if (o.spacetime.is<Schwarzschild>() && std::holds_alternative<RingsSky>(singularity))
     digest.add(rounded_for_key(o.null_time));
   if (show_.disc && show_.disc->pattern) digest.add("pattern").add(rounded_for_key(o.null_time));
   // What has the show's own light adds nothing.

@@ -114,13 +114,12 @@ EulerAngles euler_angles_of(const M33d& tetrad_from_camera) {
 M33d untilted(const M33d& axes, double tilt) { return tilted(axes, -tilt); }
 
 V3d motion_direction(const ObserverState& o) {
-  // d/dt = T + s R in rain and T - s R in the outgoing tetrad.  The boost into the
-  // observer's frame ([Riazuelo] eq. Lambda_cov) turns its spatial part k into
-  // k - c (1 - c.k/(1 + gamma)), where c = gamma v.
-  const double s = o.spacetime.free_fall_speed(o.r);
+  // The boost into the observer's frame ([Riazuelo] eq. Lambda_cov) turns the spatial part k of
+  // d/dt = t T + k into k - c (t - c.k/(1 + gamma)), where c = gamma v.
+  const auto [t, s] = o.spacetime.static_time(o.r);
   const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
   const double gamma = gamma_of(o.celerity);
-  return -(killing - o.celerity * (1 - o.celerity.dot(killing) / (1 + gamma)));
+  return -(killing - o.celerity * (t - o.celerity.dot(killing) / (1 + gamma)));
 }
 
 std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& o,

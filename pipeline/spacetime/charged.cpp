@@ -130,7 +130,7 @@ double ChargedHole::resting_celerity(const ChargedRadius& at) const {
   return (1 - f) / (2 * root);
 }
 
-double ChargedHole::rain_celerity(double r) const {
+double ChargedHole::fall_celerity(double r) const {
   const double s = free_fall_speed(r);
   return -s * (2 + s) / (2 * (1 + s));
 }

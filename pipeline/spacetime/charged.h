@@ -40,6 +40,7 @@ struct ChargedHole {
   double charge = 0;          // q >= 0
   double below_extremal = 1;  // 1 - q, which next to q = 1 has digits that q has not
 
+  bool operator==(const ChargedHole&) const = default;
   ChargedHole() = default;
   // Takes a charge q >= 0, perhaps with more digits than a double has.
   ChargedHole(double solar_masses, long double q)
@@ -57,6 +58,7 @@ struct ChargedHole {
 
   // Returns r_+, the r that region I lies above, or 0 for a naked singularity.
   double horizon() const { return is_naked() ? 0 : static_cast<double>(outer_horizon()); }
+  double innermost() const { return inner_horizon(); }
   double inner_horizon() const { return is_naked() ? 0 : static_cast<double>(inner_radius()); }
   // Returns r_c, or 0 where light cannot circle (q^2 > 9/8).
   double light_circle() const { return has_light_circle() ? static_cast<double>(circle()) : 0; }
@@ -83,12 +85,17 @@ struct ChargedHole {
   double lapse_squared(const ChargedRadius& at) const;
   double lapse_squared(double r) const { return lapse_squared(at(r)); }
 
+  StaticTime static_time(double r) const {
+    const double f = lapse_squared(r);
+    return {(1 + f) / 2, (1 - f) / 2};
+  }
+
   // Returns gamma v along R, against T, of what is at rest in r (f > 0) or in t (f < 0).  Against
   // T' it has the opposite sign.  Not for a horizon.
   double resting_celerity(const ChargedRadius& at) const;
   double resting_celerity(double r) const { return resting_celerity(at(r)); }
   // Returns gamma v along R, against T, of free fall from rest at infinity.  r >= q^2/2.
-  double rain_celerity(double r) const;
+  double fall_celerity(double r) const;
   // Returns gamma v along R that a motion has in T, or in T', from u^r = dr/dtau, its energy E and
   // l^2, where l = r dphi/dtau.
   double radial_celerity(const ChargedRadius& at, double radial, double energy, double l2,

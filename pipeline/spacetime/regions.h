@@ -8,10 +8,11 @@
 
 namespace domefall {
 
-enum class Region { kI, kII, kIII, kIV };
+// Inside the inner horizon of a charged hole lie V, which is entered from I, and VI, its mirror image.
+enum class Region { kI, kII, kIII, kIV, kV, kVI };
 
 inline const char* region_name(Region region) {
-  constexpr const char* kNames[] = {"I", "II", "III", "IV"};
+  constexpr const char* kNames[] = {"I", "II", "III", "IV", "V", "VI"};
   return kNames[static_cast<int>(region)];
 }
 
@@ -28,6 +29,13 @@ inline const char* tetrad_name(Tetrad t) {
   return kNames[static_cast<int>(t)];
 }
 
+// StaticTime holds the components of d/dt along T and R of rain, of which the latter has the opposite
+// sign in the outgoing tetrad.  A celerity with gamma and w along R has the energy E = along_t gamma
+// - along_r w and dr/dtau = along_t w - along_r gamma.
+struct StaticTime {
+  double along_t = 1, along_r = 0;
+};
+
 constexpr bool is_outgoing(Tetrad t) {
   return t == Tetrad::kOutgoing || t == Tetrad::kOutgoingToThree;
 }
@@ -37,17 +45,27 @@ constexpr bool is_mirrored(Tetrad t) {
   return t == Tetrad::kRainOfThree || t == Tetrad::kOutgoingToThree;
 }
 // Says whether a region has a tetrad.  Rain is found outside and beyond the future horizon, the
-// outgoing frame outside and before the past one.
+// outgoing frame outside and before the past one, and both inside an inner horizon.
 constexpr bool has_tetrad(Region region, Tetrad t) {
-  if (region == Region::kI || region == Region::kIII)
-    return is_mirrored(t) == (region == Region::kIII);
+  if (region == Region::kI || region == Region::kV) return !is_mirrored(t);
+  if (region == Region::kIII || region == Region::kVI) return is_mirrored(t);
   return is_outgoing(t) == (region == Region::kIV);
 }
 
 // These return what the reflection t -> -t leads to.
 constexpr Region mirror_of(Region region) {
-  if (region == Region::kI) return Region::kIII;
-  return region == Region::kIII ? Region::kI : region;
+  switch (region) {
+    case Region::kI:
+      return Region::kIII;
+    case Region::kIII:
+      return Region::kI;
+    case Region::kV:
+      return Region::kVI;
+    case Region::kVI:
+      return Region::kV;
+    default:
+      return region;
+  }
 }
 constexpr Tetrad mirror_of(Tetrad t) {
   if (is_outgoing(t)) return is_mirrored(t) ? Tetrad::kOutgoing : Tetrad::kOutgoingToThree;

@@ -24,6 +24,8 @@ inline constexpr double kSecondsPerSolarMass = 4.925490947e-6;
 struct Schwarzschild {
   double mass_solar = 1;  // > 0; it gives one M its length and decides nothing else
 
+  bool operator==(const Schwarzschild&) const = default;
+
   std::optional<double> solar_masses() const { return mass_solar; }
   double seconds_per_m() const { return mass_solar * kSecondsPerSolarMass; }
   static std::vector<double> parameters() { return {}; }
@@ -39,6 +41,10 @@ struct Schwarzschild {
   static Real free_fall_speed(Real r) {
     return std::sqrt(2 / r);
   }
+
+  static StaticTime static_time(double r) { return {1, free_fall_speed(r)}; }
+  static double fall_celerity(double) { return 0; }  // the rain tetrad itself
+  static double innermost() { return 0; }
 
   // Returns 1 - s, by (1 - s^2)/(1 + s), which does not cancel next to the horizon.
   static double below_light_speed(const Radius& at) {

@@ -11,20 +11,26 @@
 #include <variant>
 #include <vector>
 
+#include "pipeline/spacetime/charged.h"
 #include "pipeline/spacetime/radius.h"
 #include "pipeline/spacetime/regions.h"
 #include "pipeline/spacetime/schwarzschild.h"
+#include "pipeline/spacetime/wormhole.h"
 
 namespace domefall {
 
 struct FlatSpace {
+  bool operator==(const FlatSpace&) const = default;
+
   static std::optional<double> solar_masses() { return std::nullopt; }
   static double seconds_per_m() { return 1; }
   static std::vector<double> parameters() { return {}; }
   static double horizon() { return 0; }
   static double light_circle() { return 0; }
   static double last_stable_orbit() { return 0; }
-  static double free_fall_speed(double) { return 0; }
+  static StaticTime static_time(double) { return {}; }
+  static double fall_celerity(double) { return 0; }
+  static double innermost() { return 0; }
   static double lapse_squared(double) { return 1; }
   static double resting_celerity(double) { return 0; }
   static double tortoise(double r) { return r; }
@@ -37,14 +43,23 @@ struct FlatSpace {
 
 class Spacetime {
  public:
-  using Kind = std::variant<FlatSpace, Schwarzschild>;
+  using Kind = std::variant<FlatSpace, Schwarzschild, ChargedHole, Wormhole>;
 
   Spacetime() = default;                                 // flat
-  Spacetime(const FlatSpace& kind) : kind_(kind) {}      // NOLINT: each kind is a spacetime
+  Spacetime(const Kind& kind) : kind_(kind) {}           // NOLINT: each kind is a spacetime
+  Spacetime(const FlatSpace& kind) : kind_(kind) {}      // NOLINT
   Spacetime(const Schwarzschild& kind) : kind_(kind) {}  // NOLINT
+  Spacetime(const ChargedHole& kind) : kind_(kind) {}    // NOLINT
+  Spacetime(const Wormhole& kind) : kind_(kind) {}       // NOLINT
+
+  bool operator==(const Spacetime&) const = default;
 
   const Kind& kind() const { return kind_; }
-  bool is_flat() const { return std::holds_alternative<FlatSpace>(kind_); }
+  bool is_flat() const { return is<FlatSpace>(); }
+  template <class One>
+  bool is() const {
+    return std::holds_alternative<One>(kind_);
+  }
 
   // Returns the mass of the hole, or nothing without one.
   std::optional<double> solar_masses() const {
@@ -71,9 +86,8 @@ class Spacetime {
     return std::visit([](const auto& kind) { return kind.last_stable_orbit(); }, kind_);
   }
 
-  // Returns s, the speed of radial free fall from rest at infinity against observers at rest.
-  double free_fall_speed(double r) const {
-    return std::visit([r](const auto& kind) { return kind.free_fall_speed(r); }, kind_);
+  StaticTime static_time(double r) const {
+    return std::visit([r](const auto& kind) { return kind.static_time(r); }, kind_);
   }
   // Returns f, of either sign.  Its root is the rate of a clock at rest.
   double lapse_squared(double r) const {
@@ -86,6 +100,14 @@ class Spacetime {
   // or in t inside.  Against the outgoing tetrad it has the opposite sign.
   double resting_celerity(double r) const {
     return std::visit([r](const auto& kind) { return kind.resting_celerity(r); }, kind_);
+  }
+  // Returns gamma v along R, against rain, of free fall from rest at infinity.
+  double fall_celerity(double r) const {
+    return std::visit([r](const auto& kind) { return kind.fall_celerity(r); }, kind_);
+  }
+  // Returns the r that no light is drawn at or below, or 0.
+  double innermost() const {
+    return std::visit([](const auto& kind) { return kind.innermost(); }, kind_);
   }
   // Returns r*, with which v = t + r* and u = t - r* are the times of light that falls and rises.
   double tortoise(double r) const {

@@ -37,6 +37,8 @@ struct Wormhole {
   double length = 0.01;         // 2a; only dngr has one
   double lensing_width = 0.05;  // W > 0; only dngr has one
 
+  bool operator==(const Wormhole&) const = default;
+
   // W/m: t atan t - ln(1 + t^2)/2 of the t with 2 atan(t)/pi = 1/sqrt 2.
   static constexpr double kWidthOfMass = 1.4295268191803120;
 
@@ -69,7 +71,9 @@ struct Wormhole {
   static constexpr double horizon() { return 0; }
   static constexpr double light_circle() { return 1; }
   static constexpr double last_stable_orbit() { return 0; }
-  static double free_fall_speed(double) { return 0; }
+  static StaticTime static_time(double) { return {}; }
+  static double fall_celerity(double) { return 0; }
+  static constexpr double innermost() { return 0; }
   static double lapse_squared(double) { return 1; }
   static double resting_celerity(double) { return 0; }
   double tortoise(double r) const { return distance(r - 1); }  // |l|, a in the whole cylinder

@@ -19,7 +19,8 @@ namespace domefall {
 namespace {
 
 // Says whether a show sees the sky of a region, from there or from inside the hole.
-bool is_seen(const ShowSurvey& survey, Region region) {
+bool is_seen(const Show& show, const ShowSurvey& survey, Region region) {
+  if (show.spacetime.is<Wormhole>()) return true;
   return std::any_of(survey.regions.begin(), survey.regions.end(),
                      [region](Region r) { return r == region || r == Region::kII; });
 }
@@ -27,9 +28,9 @@ bool is_seen(const ShowSurvey& survey, Region region) {
 // Loads all that the frames will read, since a file may be damaged though none of the measured
 // frames shows it.
 void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) {
-  if (is_seen(survey, Region::kI)) renderer.load_sky(SkyRegion::kI);
-  if (is_seen(survey, Region::kIII)) renderer.load_sky(SkyRegion::kIII);
-  if (!show.spacetime.is_flat()) renderer.load_sky(SkyRegion::kIV);
+  if (is_seen(show, survey, Region::kI)) renderer.load_sky(SkyRegion::kI);
+  if (is_seen(show, survey, Region::kIII)) renderer.load_sky(SkyRegion::kIII);
+  if (show.spacetime.is<Schwarzschild>()) renderer.load_sky(SkyRegion::kIV);
 }
 
 // Returns the time to render.  Returns nothing where that is not worth measuring, or where no

@@ -50,7 +50,8 @@ DrawnPage drawn_page(const Show& show, const Path& path) {
   if (!show.spacetime.is_flat()) {
     places.push_back(draw_radius_panel(page, kTimes, show, path));
     places.push_back(draw_orbit_panel(page, {kLeft, 466, kLeft + 460, 926}, path));
-    places.push_back(draw_penrose_panel(page, {620, 506, 1340, 866}, path));
+    if (show.spacetime.is<Schwarzschild>())
+      places.push_back(draw_penrose_panel(page, {620, 506, 1340, 866}, path));
   } else {
     places.push_back(draw_speed_panel(page, kTimes, show, path));
     page.text(

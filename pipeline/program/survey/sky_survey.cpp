@@ -27,9 +27,11 @@ struct ShownSky {
   double max_magnitude;  // the deepest that any of them reaches
 };
 
-// Says whether a segment sees the sky of a region.  A segment inside the hole sees both skies.
+// Says whether a segment sees the sky of a region.  A segment inside the hole or in a wormhole
+// sees both skies.
 bool segment_sees(const Show& show, const SegmentSurvey& segment, SkyRegion region) {
-  if (region == SkyRegion::kIV) return !show.spacetime.is_flat();
+  if (region == SkyRegion::kIV) return show.spacetime.is<Schwarzschild>();
+  if (show.spacetime.is<Wormhole>()) return true;
   const Region outside = region == SkyRegion::kI ? Region::kI : Region::kIII;
   return std::any_of(segment.regions.begin(), segment.regions.end(),
                      [outside](Region r) { return r == outside || r == Region::kII; });

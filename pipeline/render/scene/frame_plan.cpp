@@ -47,7 +47,7 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   for (const SkyRegion sky : kExteriorSkies)
     if (seen[sky]) add(sky);
   // Rays that neither sky has come from the past singularity.
-  if (plan.gravity) add(SkyRegion::kIV);
+  if (plan.gravity && o.spacetime.is<Schwarzschild>()) add(SkyRegion::kIV);
   return plan;
 }
 

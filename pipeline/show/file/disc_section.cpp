@@ -75,6 +75,8 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   if (item == nullptr) return std::nullopt;
   const Section s(item, {"disc", "disc.light"});
   if (to.spacetime.is_flat()) item->fail("needs a black hole: give the show black_hole.mass_solar");
+  if (!to.spacetime.is_flat() && !to.spacetime.is<Schwarzschild>())
+    item->fail("needs a hole without charge");
   Disc disc;
   disc.plunging = s.flag("plunging");
   read_radii(s, to.spacetime, disc);

@@ -27,6 +27,7 @@ constexpr std::string_view kRows = R"(
 | `r` | 1e-6 to 1e9 M: the event is the first instant at which the observer is there | required |
 ## black_hole
 | `mass_solar` | 0 to 1e13 solar masses; 0 is flat space: from 1e-20 on, or 0 for no hole | [0] |
+| `charge` | 0 to 1: its electric charge in units of its mass, [below](#a-charged-hole) | [0] |
 | `at` | where the hole stands on the sky at the start: a [place on the sky](#places-on-the-sky) | [266.405, -28.936: the galactic centre] |
 | `heading_deg` | -360 to 360: in which direction orbits set out, from north through east | [90] |
 ## place

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <stdexcept>
 
+#include "pipeline/show/file/orbit_reading.h"
 #include "pipeline/show/file/trajectory_section.h"
 #include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/bound_orbit.h"
@@ -19,32 +19,6 @@ constexpr double kFallEnd = 0.05;  // M; where falls end by default
 // Returns a section with the keys of one type and those of every orbit.
 Section orbit_section(const Item& item, std::string_view type) {
   return {item, {"trajectory", "region", "begin", type, "end", "rates", "pace"}};
-}
-
-// Reports that an orbit does not exist.  Trajectories begin their messages with the name of the
-// quantity that is out of bounds.  If the show gives that quantity, its key is blamed, and else the
-// key `asked`.
-void fail_impossible(const Section& s, const Item& asked, const std::string& message) {
-  const std::size_t space = message.find(' ');
-  const std::string_view quantity = std::string_view(message).substr(0, space);
-  // The factory of bound orbits calls the semilatus rectum p (bound_orbit.h).
-  const Item* key = s.find(quantity == "p" ? "semilatus_rectum" : quantity);
-  if (key)
-    key->fail(message.substr(space + 1));
-  else
-    asked.fail("asks for what does not exist: " + message);
-}
-
-// Returns what make() returns, or reports the error that it throws if the orbit does not exist.
-template <class Make>
-auto made(const Section& s, const Item& asked, const Make& make)
-    -> std::optional<decltype(make())> {
-  try {
-    return make();
-  } catch (const std::domain_error& error) {
-    fail_impossible(s, asked, error.what());
-    return std::nullopt;
-  }
 }
 
 std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage, const Geodesic& orbit,
@@ -149,6 +123,17 @@ Placement placement_of(const V3d& celerity, bool mirrored) {
 }
 
 }  // namespace
+
+void fail_impossible(const Section& s, const Item& asked, const std::string& message) {
+  const std::size_t space = message.find(' ');
+  const std::string_view quantity = std::string_view(message).substr(0, space);
+  // The factory of bound orbits calls the semilatus rectum p (bound_orbit.h).
+  const Item* key = s.find(quantity == "p" ? "semilatus_rectum" : quantity);
+  if (key)
+    key->fail(message.substr(space + 1));
+  else
+    asked.fail("asks for what does not exist: " + message);
+}
 
 std::optional<TimedTrajectory> read_parabolic(const Item& item, const Stage& stage, Lookup&) {
   const Section s = orbit_section(item, "parabolic");

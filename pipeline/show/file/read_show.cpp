@@ -31,8 +31,10 @@ Spacetime read_spacetime(const Section& s) {
     s.find("mass_solar")
         ->fail(fmt::format("must be 0 (flat space) or at least {} (solar masses), got {}",
                            short_number(kFewestSolarMasses), as_written(*s.find("mass_solar"))));
-  if (mass.value_or(1) > 0) return Schwarzschild{mass.value_or(1)};
-  return FlatSpace{};
+  if (!(mass.value_or(1) > 0)) return FlatSpace{};
+  const double charge = s.number("charge");
+  if (charge > 0) return ChargedHole(mass.value_or(1), charge);
+  return Schwarzschild{mass.value_or(1)};
 }
 
 void read_black_hole(const Section& section, Lookup& lookup, Show& show) {

@@ -26,8 +26,9 @@ std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage,
         given->fail("needs a black hole; in flat space leave it out");
     return TimedTrajectory{StaticObserver{}, timing, {}};
   }
-  const auto r =
-      s.required("r", s.range("r").because("nothing holds still at or inside the horizon"));
+  const auto r = s.required("r", kUnitsOfM.above(stage.spacetime.horizon())
+                                     .because("nothing holds still at or inside the horizon")
+                                     .at_most(kFarthest));
   const bool mirrored = is_in_region_three(s);
   // The observer's clock runs in real time, unless a show in which other things move wants another
   // rate.
@@ -37,7 +38,7 @@ std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage,
     timing = timing_of(*rate);
   }
   if (!r) return std::nullopt;
-  return TimedTrajectory{StaticObserver{*r}, timing, {mirrored}};
+  return TimedTrajectory{StaticObserver{*r, stage.spacetime}, timing, {mirrored}};
 }
 
 // Reads a circular orbit, whose end is given as a number of orbits or follows from a rate.
@@ -50,18 +51,7 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
   const bool mirrored = is_in_region_three(s);
   const auto rate = read_rate(s, stage, r ? std::optional(period({*r})) : std::nullopt);
   if (!r || !rate) return std::nullopt;
-  const double orbits = rate->span / period({*r});
-  if (orbits > kMostOrbits * (1 + 1e-9)) {  // the given number comes back rounded
-    const Item* pace = s.one_of({"rate_m_per_s", "time_lapse"});
-    (pace ? *pace : item)
-        .fail(fmt::format("makes {} orbits in the segment; at most {} are possible",
-                          short_number(orbits), short_number(kMostOrbits)));
-    return std::nullopt;
-  }
-  Timing timing = timing_of(*rate);
-  // A number of orbits fixes the end, so that two rates only shape the way there.
-  if (s.find("orbits") && !read_end_rates(s, stage, timing)) return std::nullopt;
-  return paced(s, CircularOrbit{*r}, timing, mirrored);
+  return paced_circle(item, s, stage, CircularOrbit{*r}, period({*r}), *rate, mirrored);
 }
 
 std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const RadialInfall& fall) {
@@ -224,6 +214,23 @@ std::span<const std::string_view> trajectories_of_bodies() {
   return std::span(kTypeNames).first(kTypesOfBodies);
 }
 
+std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, const Stage& stage,
+                                            const Trajectory& circle, double period,
+                                            const Rate& rate, bool mirrored) {
+  const double orbits = rate.span / period;
+  if (orbits > kMostOrbits * (1 + 1e-9)) {  // the given number comes back rounded
+    const Item* pace = s.one_of({"rate_m_per_s", "time_lapse"});
+    (pace ? *pace : item)
+        .fail(fmt::format("makes {} orbits in the segment; at most {} are possible",
+                          short_number(orbits), short_number(kMostOrbits)));
+    return std::nullopt;
+  }
+  Timing timing = timing_of(rate);
+  // A number of orbits fixes the end, so that two rates only shape the way there.
+  if (s.find("orbits") && !read_end_rates(s, stage, timing)) return std::nullopt;
+  return paced(s, circle, timing, mirrored);
+}
+
 bool is_in_region_three(const Section& s) { return s.word("region", {false, true}); }
 
 std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& stage,
@@ -243,6 +250,16 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
     type->fail(
         fmt::format("'{}' needs a black hole: give the show black_hole.mass_solar", kind.name));
     return std::nullopt;
+  }
+  if (stage.spacetime.is<ChargedHole>()) {
+    if (kind.name == "circular") return read_charged_circle(item, stage);
+    if (kind.name == "parabolic" || kind.name == "hyperbolic" || kind.name == "bound" ||
+        kind.name == "infall")
+      return read_near_charge(kind.name, item, stage);
+    if (!kind.in_flat_space && kind.name != "body") {
+      type->fail(fmt::format("'{}' is for holes without charge", kind.name));
+      return std::nullopt;
+    }
   }
   return kind.read(item, stage, lookup);
 }

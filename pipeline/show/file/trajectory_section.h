@@ -109,6 +109,15 @@ std::optional<TimedTrajectory> read_curved_infall(const Item& item, const Stage&
 std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage, Lookup& lookup);
 std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage, Lookup& lookup);
 
+// Reads orbits near a charged hole: parabolic, hyperbolic, bound or infall; and circular.
+std::optional<TimedTrajectory> read_near_charge(std::string_view type, const Item& item,
+                                                const Stage& stage);
+std::optional<TimedTrajectory> read_charged_circle(const Item& item, const Stage& stage);
+// Returns a circle in its segment, with as many orbits as the rate makes.
+std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, const Stage& stage,
+                                            const Trajectory& circle, double period,
+                                            const Rate& rate, bool mirrored);
+
 // Reads flights whose engines bring them from a circular orbit into a fall, and to a stop.
 std::optional<TimedTrajectory> read_spiral(const Item& item, const Stage& stage, Lookup& lookup);
 std::optional<TimedTrajectory> read_braked(const Item& item, const Stage& stage, Lookup& lookup);

@@ -121,19 +121,19 @@ bool is_found_in(Against against, Region region) {
 
 // Returns the radii at which an observer of that kind can be, in that region if one is named.  A
 // lower bound that surprises has its reason in the message.
-Range radii(Against against, std::optional<Region> region, double horizon) {
-  if (against == Against::kConstantT) return kUnitsOfM.at_least(kNearest).below(horizon);
+Range radii(Against against, std::optional<Region> region, double horizon, double nearest) {
+  if (against == Against::kConstantT) return kUnitsOfM.at_least(nearest).below(horizon);
   if (against == Against::kStatic && !region)
     return kUnitsOfM.above(horizon)
         .because(
             "inside the horizon nothing is static; a velocity there needs 'against: free_fall'")
         .at_most(kFarthest);
-  if (!region) return kUnitsOfM.at_least(kNearest).at_most(kFarthest);
+  if (!region) return kUnitsOfM.at_least(nearest).at_most(kFarthest);
   if (*region == Region::kI || *region == Region::kIII)
     return kUnitsOfM.above(horizon).because("that is where the region ends").at_most(kFarthest);
   // The horizon belongs to II and IV here, since their tetrads are regular on the one that they
   // cross.
-  return kUnitsOfM.at_least(kNearest).at_most(horizon);
+  return kUnitsOfM.at_least(nearest).at_most(horizon);
 }
 
 // Returns the region that the show names, or else that of a free fall from region I or of a rise to
@@ -168,15 +168,18 @@ std::optional<GivenVelocity> read_frame(const Section& s, const Stage& stage,
     return std::nullopt;
   }
   const double horizon = stage.spacetime.horizon();
-  const auto r = s.required(radius_key, radii(against, region, horizon));
+  const double nearest = std::max(kNearest, stage.spacetime.innermost() * (1 + 1e-6));
+  const auto r = s.required(radius_key, radii(against, region, horizon, nearest));
   if (!r) return std::nullopt;
   GivenVelocity frame;
   frame.r = *r;
   frame.region = region_of(region, against, *r > horizon);
   frame.tetrad = tetrad_of(frame.region, against);
-  // Observers at rest in r or in t move against the tetrad.  The other two kinds are at rest in it.
+  // Observers at rest in r or in t move against the tetrad, and so may what falls or is thrown out.
   if (against == Against::kStatic || against == Against::kConstantT)
     frame.celerity = resting_celerity(stage.spacetime, *r, frame.tetrad);
+  else
+    frame.celerity.x = stage.spacetime.fall_celerity(*r) * (is_outgoing(frame.tetrad) ? -1 : 1);
   return frame;
 }
 

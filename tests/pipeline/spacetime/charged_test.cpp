@@ -135,7 +135,7 @@ TEST(ChargedHole, HoldsTheLapseAndTheSpeedOfFreeFall) {
     const Digits100 s = sqrt(2 * r - wide.q * wide.q) / r;
     EXPECT_LT(error(hole.free_fall_speed(at.r), s), kRoundings) << hole.charge << " " << at.r;
     // Rain has E = 1, and u^r = -s.
-    const double w = hole.rain_celerity(at.r);
+    const double w = hole.fall_celerity(at.r);
     EXPECT_NEAR(hole.radial_celerity(at, -hole.free_fall_speed(at.r), 1, 0, false), w,
                 kRoundings * std::max(1.0, std::abs(w)))
         << hole.charge << " " << at.r;
