@@ -5,13 +5,13 @@
 #include <boost/math/special_functions/ellint_rf.hpp>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "pipeline/spacetime/wormhole_leg.h"
 
 namespace domefall {
 namespace {
 
 using boost::math::ellint_rf;
-using std::numbers::pi;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -58,78 +58,34 @@ double ellis_azimuth(const ThroatRay& ray, double l) {
 
 // ---- dngr ----
 
-// A Leg is the way between the mouth, or the place where the ray turns, and infinity, along u.
-struct Leg {
-  double m, unit;  // y = unit x
-  double b, below;
-  double turn;   // x_t, or 0
-  double scale;  // s, without a turn
-  double start;  // u of the observer
-  double calm;   // u beyond which only the way to infinity is left
-
-  double operator()(double u) const {
-    if (turn > 0) {
-      const double half = std::sinh(u / 2);
-      const double risen = m * flare_growth(turn, 2 * turn * half * half);  // r - b
-      const double r = b + risen;
-      return b * unit * turn * std::sinh(u) / (r * std::sqrt(risen * (r + b)));
-    }
-    const double risen = m * flare(scale * std::sinh(u) / unit), r = 1 + risen;
-    return b * scale * std::cosh(u) / (r * std::sqrt((below + risen) * (r + b)));
-  }
-};
-
-// Returns the way between the observer's x and the turn's, where both are given, so that it keeps
-// its digits next to the turn: G(x) - G(x - way) = growth.
-double way_from_turn(double x, double turn, double growth) {
-  const double plain = x - turn;
-  if (plain > x / 4) return plain;
-  double way = growth / std::atan(x);
-  for (int k = 0; k < 8; ++k) way -= (flare_growth(x - way, way) - growth) / std::atan(x - way);
-  return way;
-}
-
-Leg leg_of(const Wormhole& w, const ThroatRay& ray, double l) {
-  Leg leg{};
-  leg.m = w.lensing_mass(), leg.unit = pi / 2 * leg.m;
-  leg.b = ray.b, leg.below = ray.below;
-  const double y = w.beyond_mouth(l), widest = std::max(1.0, leg.unit);
-  if (ray.below < 0) {
-    leg.turn = flare_inverse(-ray.below / leg.m);
-    const double growth = ray.r * ray.cosine * ray.cosine / ((1 + ray.b / ray.r) * leg.m);
-    const double way = way_from_turn(y / leg.unit, leg.turn, growth);
-    leg.start = 2 * std::asinh(std::sqrt(way / (2 * leg.turn)));
-    leg.calm = std::acosh(1 + widest / (leg.unit * leg.turn));
-    return leg;
-  }
-  // r - b vanishes at the imaginary y near pi sqrt(m (1 - b)/2) or near m pi/2, where the flare is
-  // singular.  In u both are at least pi/2 away.  An outward ray may have b = 1.
-  const double below = std::max(ray.below, 1e-300);
-  leg.scale = 0.9 * leg.unit * std::min(1.0, std::sqrt(2 * below / leg.m));
-  leg.start = std::asinh(y / leg.scale);
-  leg.calm = std::asinh(widest / leg.scale);
-  return leg;
-}
-
 using Rule = boost::math::quadrature::gauss<double, 20>;
 constexpr double kPanel = 2.5;  // of u; 20 nodes integrate to rounding what is smooth over pi/2
 
-double sum_to_start(const Leg& leg) {
-  const double panels = std::ceil(leg.start / kPanel);
+// Returns the azimuth between two places of a leg in which the integrand is smooth.
+double swept(const WormholeLeg& leg, double from, double to) {
+  const auto rate = [&leg](double u) {
+    const WormholeLeg::Place p = leg.at(u);
+    return leg.impact() * p.rate / (p.r * p.r);
+  };
+  return Rule::integrate(rate, from, to);
+}
+
+double swept_to(const WormholeLeg& leg, double start) {
+  const double panels = std::ceil(start / kPanel);
   double sum = 0;
   for (double k = 0; k < panels; ++k)
-    sum += Rule::integrate(leg, leg.start * (k / panels), leg.start * ((k + 1) / panels));
+    sum += swept(leg, start * (k / panels), start * ((k + 1) / panels));
   return sum;
 }
 
 // Where the integrand is as good as exp(-u) the panels grow.
-double sum_beyond_start(const Leg& leg) {
+double swept_beyond(const WormholeLeg& leg, double start) {
   constexpr double kLost = 40;  // exp(-40) is nothing
-  const double end = std::max(leg.start, leg.calm) + kLost;
+  const double calm = leg.calm(), end = std::max(start, calm) + kLost;
   double sum = 0, width = kPanel;
-  for (double u = leg.start; u < end; u += width) {
-    if (u > leg.calm + kPanel) width = std::min(2 * width, 6 * kPanel);
-    sum += Rule::integrate(leg, u, u + width);
+  for (double u = start; u < end; u += width) {
+    if (u > calm + kPanel) width = std::min(2 * width, 6 * kPanel);
+    sum += swept(leg, u, u + width);
   }
   return sum;
 }
@@ -145,10 +101,12 @@ double cylinder_part(const Wormhole& w, const ThroatRay& ray, double l) {
 }
 
 double dngr_azimuth(const Wormhole& w, const ThroatRay& ray, double l) {
-  const Leg leg = leg_of(w, ray, l);
-  const double out = sum_beyond_start(leg);
-  if (!ray.inward || leg.start == 0) return out + cylinder_part(w, ray, l);
-  return out + 2 * sum_to_start(leg) + cylinder_part(w, ray, l);
+  const WormholeLeg leg(w, ray.b, ray.below);
+  // r - b = r (1 - sin(delta)) does not cancel this way.
+  const double start =
+      leg.parameter(w.beyond_mouth(l), ray.r * ray.cosine * ray.cosine / (1 + ray.b / ray.r));
+  const double out = swept_beyond(leg, start) + cylinder_part(w, ray, l);
+  return ray.inward && start > 0 ? out + 2 * swept_to(leg, start) : out;
 }
 
 }  // namespace

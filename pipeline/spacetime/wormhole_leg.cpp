@@ -1,0 +1,69 @@
+#include "pipeline/spacetime/wormhole_leg.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// Returns x - x_t, so that it keeps its digits next to the turn, by G(x) - G(x - way) = growth.
+double way_from_turn(double x, double turn, double growth) {
+  const double plain = x - turn;
+  if (plain > x / 4) return plain;
+  double way = growth / std::atan(x);
+  for (int k = 0; k < 8; ++k) way -= (flare_growth(x - way, way) - growth) / std::atan(x - way);
+  return way;
+}
+
+}  // namespace
+
+WormholeLeg::WormholeLeg(const Wormhole& wormhole, double b, double one_minus_b)
+    : ellis_(wormhole.profile == Wormhole::Profile::kEllis),
+      turns_(one_minus_b < 0),
+      m_(wormhole.lensing_mass()),
+      unit_(pi / 2 * m_),
+      b_(b),
+      below_(turns_ ? one_minus_b : std::max(one_minus_b, 1e-300)) {
+  if (ellis_)
+    scale_ = std::sqrt(std::abs(below_)) * std::sqrt(1 + b);
+  else if (turns_)
+    scale_ = unit_ * flare_inverse(-below_ / m_);
+  else  // r - b vanishes at the imaginary y near pi sqrt(m (1 - b)/2), or the flare is singular
+    scale_ = 0.9 * unit_ * std::min(1.0, std::sqrt(2 * below_ / m_));
+}
+
+WormholeLeg::Place WormholeLeg::at(double u) const {
+  if (ellis_) {
+    const double y = scale_ * (turns_ ? std::cosh(u) : std::sinh(u)), r = std::hypot(1, y);
+    const double rises = scale_ * (turns_ ? std::sinh(u) : std::cosh(u)) / r;
+    return {y, r, rises * rises, r};
+  }
+  if (turns_) {
+    const double half = std::sinh(u / 2), turn = scale_ / unit_;
+    const double risen = m_ * flare_growth(turn, 2 * turn * half * half);  // r - b
+    const double r = b_ + risen, rise = risen * (r + b_) / (r * r);
+    return {scale_ * std::cosh(u), r, rise, scale_ * std::sinh(u) / std::sqrt(rise)};
+  }
+  const double y = scale_ * std::sinh(u), risen = m_ * flare(y / unit_), r = 1 + risen;
+  const double rise = (below_ + risen) * (r + b_) / (r * r);
+  return {y, r, rise, scale_ * std::cosh(u) / std::sqrt(rise)};
+}
+
+double WormholeLeg::parameter(double y, double r_less_b) const {
+  if (!turns_) return std::asinh(y / scale_);
+  if (ellis_) return std::asinh(std::sqrt(r_less_b) * std::sqrt(r_less_b + 2 * b_) / scale_);
+  const double turn = scale_ / unit_, way = way_from_turn(y / unit_, turn, r_less_b / m_);
+  return 2 * std::asinh(std::sqrt(way / (2 * turn)));
+}
+
+double WormholeLeg::calm() const {
+  const double widest = ellis_ ? 1 : std::max(1.0, unit_);
+  return turns_ ? std::acosh(1 + widest / scale_) : std::asinh(widest / scale_);
+}
+
+double WormholeLeg::cylinder_rate() const { return 1 / std::sqrt(below_ * (1 + b_)); }
+
+}  // namespace domefall
