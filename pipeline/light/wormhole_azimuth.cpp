@@ -13,8 +13,6 @@ namespace {
 
 using boost::math::ellint_rf;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
 // The throat's view has this angle.  Its cosine vanishes at the throat and keeps its digits there.
 struct EdgeAngle {
   double sine, cosine;
@@ -58,8 +56,8 @@ double ellis_azimuth(const ThroatRay& ray, double l) {
 
 // ---- dngr ----
 
-using Rule = boost::math::quadrature::gauss<double, 20>;
-constexpr double kPanel = 2.5;  // of u; 20 nodes integrate to rounding what is smooth over pi/2
+using LegRule = boost::math::quadrature::gauss<double, 20>;
+constexpr double kLegPanel = 2.5;  // of u; 20 nodes integrate to rounding what is smooth over pi/2
 
 // Returns the azimuth between two places of a leg in which the integrand is smooth.
 double swept(const WormholeLeg& leg, double from, double to) {
@@ -67,11 +65,11 @@ double swept(const WormholeLeg& leg, double from, double to) {
     const WormholeLeg::Place p = leg.at(u);
     return leg.impact() * p.rate / (p.r * p.r);
   };
-  return Rule::integrate(rate, from, to);
+  return LegRule::integrate(rate, from, to);
 }
 
 double swept_to(const WormholeLeg& leg, double start) {
-  const double panels = std::ceil(start / kPanel);
+  const double panels = std::ceil(start / kLegPanel);
   double sum = 0;
   for (double k = 0; k < panels; ++k)
     sum += swept(leg, start * (k / panels), start * ((k + 1) / panels));
@@ -82,9 +80,9 @@ double swept_to(const WormholeLeg& leg, double start) {
 double swept_beyond(const WormholeLeg& leg, double start) {
   constexpr double kLost = 40;  // exp(-40) is nothing
   const double calm = leg.calm(), end = std::max(start, calm) + kLost;
-  double sum = 0, width = kPanel;
+  double sum = 0, width = kLegPanel;
   for (double u = start; u < end; u += width) {
-    if (u > calm + kPanel) width = std::min(2 * width, 6 * kPanel);
+    if (u > calm + kLegPanel) width = std::min(2 * width, 6 * kLegPanel);
     sum += swept(leg, u, u + width);
   }
   return sum;
@@ -117,7 +115,7 @@ HalfAngle throat_edge(const Wormhole& wormhole, double l) {
 }
 
 double wormhole_azimuth(const Wormhole& wormhole, double l, double offset) {
-  if (offset == 0) return kInfinite;
+  if (offset == 0) return std::numeric_limits<double>::infinity();
   const ThroatRay ray = throat_ray(wormhole, l, offset);
   return wormhole.profile == Wormhole::Profile::kEllis ? ellis_azimuth(ray, l)
                                                        : dngr_azimuth(wormhole, ray, l);

@@ -8,7 +8,9 @@
 namespace domefall {
 namespace {
 
-SkyRegion sky_of(Region side) { return side == Region::kIII ? SkyRegion::kIII : SkyRegion::kI; }
+SkyRegion sky_of_side(Region side) {
+  return side == Region::kIII ? SkyRegion::kIII : SkyRegion::kI;
+}
 
 }  // namespace
 
@@ -50,8 +52,8 @@ std::array<WormholeZone, 2> wormhole_zones(const Wormhole& wormhole, double l) {
   const double alpha = 2 * std::atan2(edge.sine, edge.cosine);
   const double logarithm = 1 / std::sqrt(wormhole.curvature_at_throat());
   const Region side = Wormhole::side(l);
-  return {{{wormhole, l, sky_of(side), edge, 1, std::numbers::pi - alpha, logarithm},
-           {wormhole, l, sky_of(mirror_of(side)), edge, -1, alpha, logarithm}}};
+  return {{{wormhole, l, sky_of_side(side), edge, 1, std::numbers::pi - alpha, logarithm},
+           {wormhole, l, sky_of_side(mirror_of(side)), edge, -1, alpha, logarithm}}};
 }
 
 }  // namespace domefall

@@ -10,8 +10,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
 }  // namespace
 
 double flare(double x) { return x * std::atan(x) - std::log1p(x * x) / 2; }
@@ -28,7 +26,7 @@ double flare_inverse(double value) {
   for (int k = 0; k < 60 && x > 0; ++k) {
     const double step = (flare(x) - value) / std::atan(x);
     x -= step;
-    if (std::abs(step) <= kEpsilon * x) break;
+    if (std::abs(step) <= std::numeric_limits<double>::epsilon() * x) break;
   }
   return x;
 }
