@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 namespace domefall {
 
@@ -31,5 +32,16 @@ inline double monotone_slope(double length_before, double before, double length_
   const double a = 2 * length_after + length_before, b = length_after + 2 * length_before;
   return (a + b) / (a / before + b / after);
 }
+
+// Returns such slopes for all keys, of which there are at least two.  Those of the first and the last
+// key are of the parabola through the next two, within what keeps the curve from turning.
+std::vector<double> monotone_slopes(const std::vector<double>& taus,
+                                    const std::vector<double>& values);
+
+// Returns where the cubic turns, between 0 and 1, with both ends.
+std::vector<double> turns_of(const HermiteCubic& c);
+
+// Returns where the cubic, which must not turn between low and high, has the value.
+double where(const HermiteCubic& c, double value, double low, double high);
 
 }  // namespace domefall
