@@ -26,6 +26,9 @@ struct ObserverState {
   double null_time = 0;
   // This is the angle swept in the planes of its orbits since the start of the show, in radians.
   double azimuth = 0;
+  // In a wormhole r is r(l), and this is the proper length from the middle of its throat, positive in
+  // region I and negative in region III.  Elsewhere it is 0.
+  double l = 0;
   // The columns are the directions of R, Theta and Phi of the reference tetrad on the celestial
   // sphere, so R is the observer's place as seen from the hole.  It is a rotation.
   M33d sky_from_tetrad;

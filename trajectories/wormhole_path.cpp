@@ -1,0 +1,309 @@
+#include "trajectories/wormhole_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "pipeline/spacetime/wormhole_leg.h"
+#include "trajectories/flight_table.h"
+#include "trajectories/monotone_cubic.h"
+#include "trajectories/orbit_bounds.h"
+#include "trajectories/short_number.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kFarthestFall = 1e12;     // |l| of its beginning
+constexpr double kFallEnds = 40;           // of u, beyond which r^2 - b^2 is r^2
+constexpr double kFlightRounding = 1e-12;  // of its duration, by which a time may miss its ends
+
+OrbitPoint wormhole_point(const Wormhole& w, double l, double azimuth, double radial,
+                          double tangential, const ProperTime& time) {
+  OrbitPoint point;
+  point.region = Wormhole::side(l);
+  point.r = w.radius(l);
+  point.azimuth = azimuth;
+  point.celerity = {radial, 0, tangential};
+  point.null_time = time + l;
+  point.l = l;
+  return point;
+}
+
+ProperTime times(double factor, const ProperTime& time) {
+  return exact_product(factor, time.hi) + factor * time.lo;
+}
+
+}  // namespace
+
+OrbitPoint WormholeCircle::at(const ProperTime& tau) const {
+  const double gamma = 1 / std::sqrt((1 - speed) * (1 + speed)), celerity = gamma * speed;
+  return wormhole_point(wormhole, l, double(tau) * celerity / wormhole.radius(l), 0, celerity,
+                        times(gamma, tau));
+}
+
+// ---- free fall ----
+
+// Lengths count along the path from where it turns, or from the middle of the throat, and are
+// negative before.
+struct WormholeFall::Tables {
+  Wormhole wormhole;
+  double celerity;  // sqrt(E^2 - 1)
+  WormholeLeg leg;
+  double last_u;
+  FlightTable way;            // of the leg, in u over last_u, with the length as its proper time
+  double straight;            // half of the length in the cylinder
+  double from_side, heading;  // of the beginning: the sign of l, and that of dl
+  double start = 0, start_azimuth = 0;
+
+  struct Place {
+    double l, azimuth, rise;  // |l|, azimuth from 0, |dl/ds|
+  };
+  Place place(double length) const;  // >= 0
+  double length_of(double l) const;  // >= 0
+};
+
+WormholeFall::Tables::Place WormholeFall::Tables::place(double length) const {
+  const double b = leg.impact();
+  if (b == 0) return {length, 0, 1};
+  if (length <= straight) {
+    const double rise = 1 / leg.cylinder_rate();
+    return {length * rise, b * length, rise};
+  }
+  const double beyond = length - straight, tabulated = way.whole().tau;
+  const double q = beyond < tabulated ? way.parameter(beyond) : 1;
+  const WormholeLeg::Place p = leg.at(q * last_u);
+  return {wormhole.half_length() + p.y + std::max(0.0, beyond - tabulated),
+          b * straight + way.to_go(q).azimuth, std::sqrt(p.rise)};
+}
+
+double WormholeFall::Tables::length_of(double l) const {
+  const double b = leg.impact(), y = wormhole.beyond_mouth(l);
+  if (b == 0) return std::abs(l);
+  if (!leg.turns() && y == 0) return std::abs(l) * leg.cylinder_rate();
+  const double r_less_b = std::max(0.0, wormhole.above_throat(l) + (1 - b));
+  return straight + way.to_go(leg.parameter(y, r_less_b) / last_u).tau;
+}
+
+WormholeFall::WormholeFall(const Wormhole& wormhole, double from_l, double speed, double impact,
+                           bool inward) {
+  require_above("speed", "fraction of c", speed, 0, "what rests does not fall in a wormhole");
+  require_below("speed", "fraction of c", speed, 1, "nothing outruns light");
+  require_at_least("impact", "radii of the throat", impact, 0, "the azimuth grows");
+  if (!(std::abs(from_l) <= kFarthestFall))
+    throw std::domain_error("from_l must be from -1e12 to 1e12 (radii of the throat), got " +
+                            short_number(from_l));
+  if (impact == 1)
+    throw std::domain_error(
+        "impact must not be 1 (radii of the throat): with it the path circles for ever");
+  const double r = wormhole.radius(from_l);
+  if (!(impact <= r))
+    throw std::domain_error(
+        fmt::format("impact must be at most {} (radii of the throat), the r of from_l, got {}",
+                    short_number(r), short_number(impact)));
+  const WormholeLeg leg(wormhole, impact, 1 - impact);
+  const double far = 4 * kFarthestFall;
+  const double last_u = leg.parameter(far, wormhole.above_throat(far) + (1 - impact)) + kFallEnds;
+  const auto rates = [&leg, last_u](double q) {
+    const WormholeLeg::Place p = leg.at(q * last_u);
+    const double rate = p.rate * last_u;
+    return FlightTable::Times{rate, 0, rate * leg.impact() / (p.r * p.r)};
+  };
+  const double side = from_l < 0 ? -1 : 1;
+  const double straight = leg.turns() ? 0 : wormhole.half_length() * leg.cylinder_rate();
+  Tables tables{wormhole,
+                speed / std::sqrt((1 - speed) * (1 + speed)),
+                leg,
+                last_u,
+                FlightTable(rates),
+                straight,
+                side,
+                inward ? -side : side};
+  const double length = tables.length_of(from_l), swept = tables.place(length).azimuth;
+  tables.start = inward ? -length : length;
+  tables.start_azimuth = inward ? -swept : swept;
+  tables_ = std::make_shared<const Tables>(std::move(tables));
+}
+
+bool WormholeFall::passes() const { return !tables_->leg.turns(); }
+
+OrbitPoint WormholeFall::at(const ProperTime& tau) const {
+  const Tables& t = *tables_;
+  const auto length = double(times(t.celerity, tau) + t.start);
+  const double sense = length < 0 ? -1 : 1;
+  const Tables::Place place = t.place(std::abs(length));
+  // Who passes goes on in the direction of l, and who turns stays on its side.
+  const double side = passes() ? t.heading * sense : t.from_side;
+  const double forward = passes() ? t.heading : t.from_side * sense;
+  return wormhole_point(t.wormhole, side * place.l, sense * place.azimuth - t.start_azimuth,
+                        forward * t.celerity * place.rise,
+                        t.celerity * t.leg.impact() / t.wormhole.radius(place.l),
+                        times(std::hypot(1, t.celerity), tau));
+}
+
+std::optional<ProperTime> WormholeFall::time_at(double r, Leg leg, const ProperTime& after) const {
+  const Tables& t = *tables_;
+  if (!(r >= reach().first && r <= kInfinity) || std::isinf(r)) return std::nullopt;
+  const double length = t.length_of(t.wormhole.distance(r - 1));
+  const ProperTime tau = ((leg == Leg::kInward ? -length : length) - t.start) / t.celerity;
+  return tau >= after ? std::optional(tau) : std::nullopt;
+}
+
+std::pair<double, double> WormholeFall::reach() const {
+  return {passes() ? 1 : tables_->leg.impact(), kInfinity};
+}
+
+// ---- keyframes ----
+
+namespace {
+
+struct WormholePiece {
+  double begin, end;  // proper time
+  HermiteCubic l, azimuth;
+};
+
+[[noreturn]] void refuse_key(std::size_t key, double tau, const std::string& why) {
+  throw std::domain_error(fmt::format("key {}, at proper time {} (radii of the throat): {}", key,
+                                      short_number(tau), why));
+}
+
+void check_wormhole_keys(const std::vector<WormholeKey>& keys) {
+  constexpr double kFastest = 1e100;  // whose square a double holds well
+  if (keys.size() < 2) throw std::domain_error("a path must have at least 2 keys");
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const WormholeKey& key = keys[k];
+    for (const double value :
+         {key.tau, key.l, key.azimuth, key.rate.value_or(0), key.azimuth_rate.value_or(0)})
+      if (!std::isfinite(value)) refuse_key(k + 1, key.tau, "its values must be finite numbers");
+    if (k == 0) continue;
+    const WormholeKey& before = keys[k - 1];
+    const double span = key.tau - before.tau;
+    if (!(span > 0))
+      refuse_key(k + 1, key.tau, "its proper time must exceed that of the key before");
+    const double turned = std::abs(key.azimuth - before.azimuth) *
+                          (1 + std::max(std::abs(key.l), std::abs(before.l)));
+    if (!(std::abs(key.l - before.l) < kFastest * span && turned < kFastest * span))
+      refuse_key(k + 1, key.tau, "it is too close in proper time to the key before");
+  }
+}
+
+std::vector<WormholePiece> wormhole_pieces(const std::vector<WormholeKey>& keys) {
+  std::vector<double> taus, places, azimuths;
+  for (const WormholeKey& key : keys)
+    taus.push_back(key.tau), places.push_back(key.l), azimuths.push_back(key.azimuth);
+  std::vector<double> rate = monotone_slopes(taus, places), swept = monotone_slopes(taus, azimuths);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    rate[k] = keys[k].rate.value_or(rate[k]);
+    swept[k] = keys[k].azimuth_rate.value_or(swept[k]);
+  }
+  std::vector<WormholePiece> pieces;
+  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
+    const double span = taus[k + 1] - taus[k];
+    pieces.push_back(
+        {taus[k], taus[k + 1],
+         HermiteCubic(places[k], places[k + 1], rate[k] * span, rate[k + 1] * span),
+         HermiteCubic(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
+  }
+  return pieces;
+}
+
+const WormholePiece& piece_at(const std::vector<WormholePiece>& pieces, double tau) {
+  const auto after =
+      std::upper_bound(pieces.begin() + 1, pieces.end(), tau,
+                       [](double value, const WormholePiece& p) { return value < p.begin; });
+  return *(after - 1);
+}
+
+// Returns the state with no null time yet.
+OrbitPoint point_on(const Wormhole& w, const WormholePiece& piece, double tau) {
+  const double span = piece.end - piece.begin;
+  const double t = std::clamp((tau - piece.begin) / span, 0.0, 1.0), l = piece.l.at(t);
+  return wormhole_point(w, l, piece.azimuth.at(t), piece.l.slope(t) / span,
+                        w.radius(l) * piece.azimuth.slope(t) / span, 0);
+}
+
+FlightTable time_table(const Wormhole& w, const std::vector<WormholePiece>& pieces) {
+  const double begin = pieces.front().begin, span = pieces.back().end - begin;
+  const auto rates = [&](double q) {
+    const double tau = begin + q * span;
+    return FlightTable::Times{span,
+                              span * gamma_of(point_on(w, piece_at(pieces, tau), tau).celerity), 0};
+  };
+  std::vector<double> kinks;
+  for (std::size_t k = 1; k < pieces.size(); ++k) kinks.push_back((pieces[k].begin - begin) / span);
+  return {rates, kinks};
+}
+
+}  // namespace
+
+// Here the table counts from the first key.
+struct WormholeFlight::Tables {
+  Wormhole wormhole;
+  std::vector<WormholePiece> pieces;
+  FlightTable times;
+};
+
+WormholeFlight::WormholeFlight(const Wormhole& wormhole, const std::vector<WormholeKey>& keys) {
+  check_wormhole_keys(keys);
+  std::vector<WormholePiece> pieces = wormhole_pieces(keys);
+  FlightTable times = time_table(wormhole, pieces);
+  tables_ = std::make_shared<const Tables>(Tables{wormhole, std::move(pieces), std::move(times)});
+}
+
+double WormholeFlight::begin() const { return tables_->pieces.front().begin; }
+double WormholeFlight::end() const { return tables_->pieces.back().end; }
+double WormholeFlight::birth() const { return std::nextafter(begin(), -kInfinity); }
+double WormholeFlight::death() const { return std::nextafter(end(), kInfinity); }
+
+OrbitPoint WormholeFlight::at(const ProperTime& tau) const {
+  const auto time = double(tau);
+  const double span = end() - begin(), slack = kFlightRounding * span;
+  if (!(time >= begin() - slack && time <= end() + slack))
+    throw std::domain_error("proper time " + short_number(time) +
+                            " (radii of the throat) is not on the path");
+  OrbitPoint point = point_on(tables_->wormhole, piece_at(tables_->pieces, time), time);
+  const double q = std::clamp((time - begin()) / span, 0.0, 1.0);
+  point.null_time = point.null_time + tables_->times.to_go(q).null_time;
+  return point;
+}
+
+std::optional<ProperTime> WormholeFlight::time_at(double r, Leg leg,
+                                                  const ProperTime& after) const {
+  if (!(r >= 1) || std::isinf(r)) return std::nullopt;
+  const double far = tables_->wormhole.distance(r - 1);
+  std::optional<ProperTime> first;
+  for (const WormholePiece& piece : tables_->pieces) {
+    const std::vector<double> cuts = turns_of(piece.l);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+      for (const double l : {far, -far}) {
+        const double from = piece.l.at(cuts[k]), to = piece.l.at(cuts[k + 1]);
+        const bool falls = l < 0 ? to > from : to < from;
+        if (from == to || falls != (leg == Leg::kInward) || l < std::min(from, to) ||
+            l > std::max(from, to))
+          continue;
+        const double t = where(piece.l, l, cuts[k], cuts[k + 1]);
+        const ProperTime tau = piece.begin + t * (piece.end - piece.begin);
+        if (tau >= after && (!first || tau < *first)) first = tau;
+      }
+    if (first) return first;
+  }
+  return first;
+}
+
+std::pair<double, double> WormholeFlight::reach() const {
+  double low = kInfinity, high = 0;
+  for (const WormholePiece& piece : tables_->pieces) {
+    double before = piece.l.at(0);
+    for (const double t : turns_of(piece.l)) {
+      const double l = piece.l.at(t);
+      low = std::min(low, before * l <= 0 ? 1 : tables_->wormhole.radius(l));
+      high = std::max(high, tables_->wormhole.radius(l));
+      before = l;
+    }
+  }
+  return {low, high};
+}
+
+}  // namespace domefall
