@@ -1,5 +1,6 @@
 #include "pipeline/light/wormhole_zones.h"
 
+#include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,17 @@ namespace {
 
 SkyRegion sky_of_side(Region side) {
   return side == Region::kIII ? SkyRegion::kIII : SkyRegion::kI;
+}
+
+// Azimuths have structure where alpha is of the edge's size, where 1 - b is of the size of m, and,
+// next to the throat, where the rays begin to go outward.  What is smaller than the last number is
+// smaller than anything that is seen.
+double least_angle(const Wormhole& wormhole, double alpha, double l) {
+  const double m = wormhole.lensing_mass();
+  double least = std::min(1.0, alpha);
+  if (wormhole.profile == Wormhole::Profile::kDngr) least *= std::min(1.0, m);
+  const double above = wormhole.above_throat(l);
+  return above > 0 ? std::min(least, std::max(1e-5, std::sqrt(2 * above))) : least;
 }
 
 }  // namespace
@@ -51,9 +63,10 @@ std::array<WormholeZone, 2> wormhole_zones(const Wormhole& wormhole, double l) {
   const HalfAngle edge = throat_edge(wormhole, l);
   const double alpha = 2 * std::atan2(edge.sine, edge.cosine);
   const double logarithm = 1 / std::sqrt(wormhole.curvature_at_throat());
+  const double least = least_angle(wormhole, alpha, l);
   const Region side = Wormhole::side(l);
-  return {{{wormhole, l, sky_of_side(side), edge, 1, std::numbers::pi - alpha, logarithm},
-           {wormhole, l, sky_of_side(mirror_of(side)), edge, -1, alpha, logarithm}}};
+  return {{{wormhole, l, sky_of_side(side), edge, 1, std::numbers::pi - alpha, least, logarithm},
+           {wormhole, l, sky_of_side(mirror_of(side)), edge, -1, alpha, least, logarithm}}};
 }
 
 }  // namespace domefall

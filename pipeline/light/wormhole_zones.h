@@ -23,6 +23,7 @@ struct WormholeZone {
   HalfAngle edge{0, 1};  // of the edge's alpha
   double sign = 1;       // +1: the zone lies at larger alpha than its edge; -1: at smaller
   double reach = 0;      // radians from the edge to the far end, where the azimuth is 0
+  double least = 1;      // radians; the smallest angle on which the azimuth has structure
   // Next to the edge bent_azimuth is -logarithm ln(distance) + c + O(distance ln(distance)).
   double logarithm = 1;
 

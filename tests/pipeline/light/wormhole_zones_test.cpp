@@ -55,7 +55,7 @@ TEST(WormholeZones, TheAzimuthFallsFromTheEdgeToNothing) {
     for (const double l : kPlaces)
       for (const WormholeZone& zone : wormhole_zones(w, l)) {
         double before = HUGE_VAL;
-        for (double part = 1e-9; part < 1; part *= 1.1) {
+        for (double part = 1e-9; part < 1; part *= 1.25) {
           const double phi = zone.azimuth(part * zone.reach);
           EXPECT_LT(phi, before) << l << " " << part;
           before = phi;
@@ -77,6 +77,18 @@ TEST(WormholeZones, HaveTheirPartsAndTheLawOfTheirEdge) {
           EXPECT_NEAR(grown / (zone.logarithm * std::log(16)), 1, 1e-3) << l;
         }
       }
+}
+
+// There the law of the edge holds, so that a table may begin at a small part of it.
+TEST(WormholeZones, HaveNoStructureBelowTheirLeastAngle) {
+  for (const Wormhole& w : some_wormholes())
+    for (const double l : kPlaces)
+      for (const WormholeZone& zone : wormhole_zones(w, l))
+        for (const double part : {1e-7, 1e-6, 1e-5}) {
+          const double x = part * zone.least;
+          const double law = zone.bent_azimuth(x / 2) - zone.bent_azimuth(x);
+          EXPECT_NEAR(law / (zone.logarithm * std::log(2)), 1, 40 * part) << l << " " << w.length;
+        }
 }
 
 TEST(WormholeZones, TellTheDistanceOfAnAzimuth) {
