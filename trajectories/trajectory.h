@@ -25,12 +25,14 @@
 #include "trajectories/speed_ramp.h"
 #include "trajectories/spiral.h"
 #include "trajectories/static_observer.h"
+#include "trajectories/wormhole_path.h"
 
 namespace domefall {
 
 using Trajectory =
     std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity, SpeedRamp, Geodesic,
-                 AcceleratedPath, Spiral, BrakedFlight, ChargedOrbit, ChargedCircle>;
+                 AcceleratedPath, Spiral, BrakedFlight, ChargedOrbit, ChargedCircle, WormholeCircle,
+                 WormholeFall, WormholeFlight>;
 
 // Returns the point of the orbit at proper time tau (units of M, or seconds in flat space) since
 // its start.  tau must be in (birth, lifetime), for a radial infall in [0, lifetime).

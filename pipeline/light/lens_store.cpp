@@ -35,8 +35,8 @@ std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
     return std::make_shared<StraightLens>(observer.r, observer.tetrad, observer.sky_from_tetrad,
                                           light.rest, light.shift);
   }
-  const Place place{observer.spacetime, observer.region, observer.tetrad, observer.universe,
-                    observer.r};
+  const Place place{observer.spacetime, observer.region, observer.tetrad,
+                    observer.universe,  observer.r,      observer.l};
   const bool same = place_ == place;
   const int before = same ? table_count(*kept_) : 0;
   if (!same) {

@@ -37,7 +37,7 @@ class LensStore {
     Region region;
     Tetrad tetrad;
     int universe;
-    double r;
+    double r, l;
 
     bool operator==(const Place&) const = default;
   };

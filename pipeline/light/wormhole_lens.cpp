@@ -12,9 +12,7 @@ SkyZone zone_of(const WormholeZone& of, double inward) {
   SkyZone zone;
   zone.edge = {of.edge, of.sign};
   zone.reach = of.reach;
-  zone.least = std::min(1.0, of.reach);
-  if (of.wormhole.profile == Wormhole::Profile::kDngr)
-    zone.least *= std::min(1.0, of.wormhole.lensing_mass());
+  zone.least = of.least;
   // In a cylinder light winds as often as it is long, whatever the distance from the edge.
   zone.logarithm = of.wormhole.half_length() > 0 ? 0 : of.logarithm;
   zone.uneven = true;
@@ -32,12 +30,10 @@ SkyZone zone_of(const WormholeZone& of, double inward) {
 }  // namespace
 
 HoleOptics make_wormhole_optics(const Wormhole& wormhole, const ObserverState& observer) {
-  const double distance = wormhole.distance(observer.r - 1);
-  const bool beyond = observer.region == Region::kIII;
   HoleOptics optics;
   optics.tetrad = observer.tetrad;
-  optics.inward = beyond ? -1 : 1;
-  for (const WormholeZone& zone : wormhole_zones(wormhole, beyond ? -distance : distance))
+  optics.inward = observer.l < 0 ? -1 : 1;
+  for (const WormholeZone& zone : wormhole_zones(wormhole, observer.l))
     optics.parts.push_back({zone.sky, zone_of(zone, optics.inward), {}});
   return optics;
 }

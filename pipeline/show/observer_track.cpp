@@ -164,7 +164,7 @@ ObserverState observer_at(const Show& show, int segment, double part) {
   ObserverState o;
   o.spacetime = show.spacetime;
   o.region = point.region, o.tetrad = point.tetrad, o.r = point.r;
-  o.universe = point.universe;
+  o.universe = point.universe, o.l = point.l;
   o.proper_time = double(tau);
   o.celerity = point.celerity;
   o.null_time = double(joint.null_time);

@@ -13,7 +13,7 @@ constexpr std::string_view kRows = R"(
 | `title` | one line of text | the file's name without `.yaml` |
 | `frames_per_second` | 1 to 240 frames per second: also as a fraction such as 24000/1001; 23.98, 29.97 and the like stand for n 1000/1001 | [30] |
 | `size` | for a dome `1k`, `2k`, `4k`, `8k` or 16 to 16384 pixels; for a flat picture `[width, height]`, each 16 to 16384; for others see [projections](#projections) | [`4k`], flat [`[1920, 1080]`] |
-| `black_hole`, `camera`, `effects`, `sky`, `stars`, `disc`, `bodies`, `exposure`, `grade`, `dome`, `output` | sections, below | |
+| `black_hole`, `wormhole`, `camera`, `effects`, `sky`, `stars`, `disc`, `bodies`, `exposure`, `grade`, `dome`, `output` | sections, below | |
 | `begins_year` | -1e6 to 1e6 years: the year in which the show begins, for [planets](#planets-sun-and-moon), bodies given by their [elements](#orbits-by-elements) and the [counter](#counters) `{year}` | |
 | `cameras` | further cameras by name, [below](#cameras) | |
 | `keyframes` | what changes during the show, [below](#keyframes) | |
@@ -29,6 +29,13 @@ constexpr std::string_view kRows = R"(
 | `mass_solar` | 0 to 1e13 solar masses; 0 is flat space: from 1e-20 on, or 0 for no hole | [0] |
 | `charge` | 0 to 1: its electric charge in units of its mass, [below](#a-charged-hole) | [0] |
 | `at` | where the hole stands on the sky at the start: a [place on the sky](#places-on-the-sky) | [266.405, -28.936: the galactic centre] |
+| `heading_deg` | -360 to 360: in which direction orbits set out, from north through east | [90] |
+## wormhole
+| `radius_km` | above 0, at most 1e15 km: of its throat, which is the unit of all lengths near it, and with the speed of light that of times | required |
+| `profile` | `dngr` or `ellis`: a cylinder that widens like a hole of some mass, or r² = l² + 1 | [`dngr`] |
+| `length` | 0 to 1e6 radii of the throat: of the cylinder of `dngr` | [0.01] |
+| `lensing_width` | 1e-6 to 1e6 radii of the throat: how far around the mouths of `dngr` the sky is bent | [0.05] |
+| `at` | where it stands on the sky at the start: a [place on the sky](#places-on-the-sky) | [266.405, -28.936: the galactic centre] |
 | `heading_deg` | -360 to 360: in which direction orbits set out, from north through east | [90] |
 ## place
 | `ra_deg` | 0 to 360: right ascension (J2000) in decimal degrees | these two or |
@@ -106,6 +113,23 @@ constexpr std::string_view kRows = R"(
 | `from_r` | above 2, at most 1e9: where it begins to brake | required |
 | `stop_r` | above 2, at most 1e9: where it comes to rest, and hovers from then on | required |
 | `speed` | 1e-6 to below 1 speed of light = 1: at `from_r`, against what is at rest there | sqrt(2/`from_r`), that of a fall from rest far away |
+## static in a wormhole
+| `l` | -1e9 to 1e9 radii of the throat: the distance from the middle of the throat, negative beyond it | required |
+## circular in a wormhole
+| `l` | -1e9 to 1e9 radii of the throat: where it circles, by engines | required |
+| `speed` | 0 to below 1 speed of light = 1: against what is at rest | required |
+| `orbits` | 0 to 1e6 revolutions: how many orbits in the segment | |
+## infall in a wormhole
+| `from_l` | -1e9 to 1e9 radii of the throat: where the segment begins | required |
+| `to_l` | -1e9 to 1e9: where it ends, beyond the throat if it has the other sign | |
+| `speed` | above 0, below 1 speed of light = 1: of the free fall, everywhere | required |
+| `impact_parameter` | 0 to 1e9 radii of the throat: below 1 it passes the throat, above it turns where r is that | [0] |
+## path in a wormhole
+| `keyframes` | a list of places and times, with the keys below | required |
+## keyframes in a wormhole
+| `at_m` | -1e12 to 1e12 radii of the throat: the observer's own time | required |
+| `l` | -1e9 to 1e9: where it is then | required |
+| `azimuth_deg` | -1e9 to 1e9: where it is then | [0] |
 ## static
 | `r` | above 2, at most 1e9: near a hole; not allowed in flat space | required |
 ## speed

@@ -46,6 +46,19 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
   show.spacetime = read_spacetime(s);
 }
 
+// A show has a black hole or a wormhole.
+void read_place(const Section& section, Lookup& lookup, Show& show) {
+  const Item* item = section.find("wormhole");
+  section.one_of({"black_hole", "wormhole"});
+  if (item == nullptr) return read_black_hole(section, lookup, show);
+  const Section s(item, {"wormhole"});
+  show.hole_at = sky_direction(kGalacticCentreRaDeg, kGalacticCentreDecDeg);
+  if (const Item* at = s.find("at"))
+    show.hole_at = read_sky_place(*at, lookup).value_or(show.hole_at);
+  show.heading = s.angle("heading_deg");
+  show.spacetime = read_wormhole(s);
+}
+
 std::vector<std::filesystem::path> read_audio(const Section& section, const Lookup& lookup) {
   std::vector<std::filesystem::path> files;
   const Item* given = section.find("audio");
@@ -70,7 +83,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.markers = read_markers(section, lookup);
   show.fades = read_fades(section);
   show.audio = read_audio(section, lookup);
-  read_black_hole(section, lookup, show);
+  read_place(section, lookup, show);
   show.bodies = read_bodies(section, show, lookup);
   const ShowCamera camera = read_show_camera(section, show, lookup);
   show.projection = camera.projection;

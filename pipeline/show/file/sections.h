@@ -162,4 +162,7 @@ void check_fades(const Section& section, const Fades& fades, double duration, co
 std::vector<Segment> read_timeline(const Section& section, const Show& show,
                                    const ShowCamera& camera, Lookup& lookup);
 
+// Reads the section `wormhole`, but not where it stands.
+Wormhole read_wormhole(const Section& s);
+
 }  // namespace domefall

@@ -251,6 +251,8 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
         fmt::format("'{}' needs a black hole: give the show black_hole.mass_solar", kind.name));
     return std::nullopt;
   }
+  if (stage.spacetime.is<Wormhole>() && kind.name != "continue")
+    return read_in_wormhole(kind.name, item, stage);
   if (stage.spacetime.is<ChargedHole>()) {
     if (kind.name == "circular") return read_charged_circle(item, stage);
     if (kind.name == "parabolic" || kind.name == "hyperbolic" || kind.name == "bound" ||

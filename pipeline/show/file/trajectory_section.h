@@ -113,6 +113,9 @@ std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage
 std::optional<TimedTrajectory> read_near_charge(std::string_view type, const Item& item,
                                                 const Stage& stage);
 std::optional<TimedTrajectory> read_charged_circle(const Item& item, const Stage& stage);
+// Reads trajectories in a wormhole: static, circular, infall and path.
+std::optional<TimedTrajectory> read_in_wormhole(std::string_view type, const Item& item,
+                                                const Stage& stage);
 // Returns a circle in its segment, with as many orbits as the rate makes.
 std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, const Stage& stage,
                                             const Trajectory& circle, double period,
