@@ -179,13 +179,26 @@ std::vector<ExrChannel> channels_of(const LayeredFrame<T>& frame, bool without_l
   return channels;
 }
 
+template <class T>
+std::vector<ExrChannel> channels_of(const LayeredFrame<T>& frame, const FrameData& data) {
+  std::vector<ExrChannel> channels = channels_of(frame, data.without_layers);
+  for (const ChannelImage* image : data.images)
+    for (ExrChannel& channel : interleaved(image->channels, image->pixels.data()))
+      channels.push_back(std::move(channel));
+  return channels;
+}
+
+std::size_t bytes_of(const std::vector<ExrChannel>& channels) {
+  std::size_t bytes = 0;
+  for (const ExrChannel& channel : channels)
+    bytes += std::visit([](const auto* numbers) { return sizeof(*numbers); }, channel.numbers);
+  return bytes;
+}
+
 void write_colours(const std::filesystem::path& path, int width, int height,
                    std::vector<ExrChannel> channels, const FrameInfo& info,
                    ExrCompression compression, const FrameData& data = {}) {
   ExrPicture picture{width, height, std::move(channels), compression, attributes_of(info)};
-  for (const ChannelImage* image : data.images)
-    for (ExrChannel& channel : interleaved(image->channels, image->pixels.data()))
-      picture.channels.push_back(std::move(channel));
   picture.attributes.insert(picture.attributes.end(), data.attributes.begin(),
                             data.attributes.end());
   const std::pair<std::string, ExrValue> colours[] = {{"chromaticities", kAcesCg},
@@ -202,10 +215,20 @@ void set_file_threads(int threads) {
 }
 
 template <class T>
+std::size_t pixel_bytes(const LayeredFrame<T>& frame, const FrameData& data) {
+  return bytes_of(channels_of(frame, data));
+}
+
+template <class T>
+std::size_t pixel_bytes(const LayerImage<T>& layer) {
+  return bytes_of(channels_of(layer));
+}
+
+template <class T>
 void write_frame(const std::filesystem::path& path, const LayeredFrame<T>& frame,
                  const FrameInfo& info, ExrCompression compression, const FrameData& data) {
-  write_colours(path, frame.picture.width, frame.picture.height,
-                channels_of(frame, data.without_layers), info, compression, data);
+  write_colours(path, frame.picture.width, frame.picture.height, channels_of(frame, data), info,
+                compression, data);
 }
 
 template <class T>
@@ -220,6 +243,10 @@ void write_frame(const std::filesystem::path& path, const ImageRgb<T>& picture,
   write_colours(path, picture.width, picture.height, channels_of(picture), info, compression);
 }
 
+template std::size_t pixel_bytes(const LayeredHalfFrame&, const FrameData&);
+template std::size_t pixel_bytes(const LayeredFloatFrame&, const FrameData&);
+template std::size_t pixel_bytes(const LayerImage<Imath::half>&);
+template std::size_t pixel_bytes(const LayerImage<float>&);
 template void write_frame(const std::filesystem::path&, const LayeredHalfFrame&, const FrameInfo&,
                           ExrCompression, const FrameData&);
 template void write_frame(const std::filesystem::path&, const LayeredFloatFrame&, const FrameInfo&,

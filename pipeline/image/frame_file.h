@@ -45,6 +45,12 @@ struct FrameData {
   bool without_layers = false;  // which are in files of their own
 };
 
+// Returns the bytes of a pixel in the files that the next two functions write, without compression.
+template <class T>
+std::size_t pixel_bytes(const LayeredFrame<T>& frame, const FrameData& data);
+template <class T>
+std::size_t pixel_bytes(const LayerImage<T>& layer);
+
 // Writes a frame under its final name when it is complete.  T is Imath::half or float.  Throws as
 // TemporaryFile does.
 template <class T>

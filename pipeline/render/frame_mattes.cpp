@@ -79,8 +79,7 @@ void MattePass::fill_skies(int row, const std::vector<float*>& covered) const {
   }
 }
 
-Cryptomatte identities(const Show& show, const FrameState& state,
-                       const std::vector<Matte>& mattes) {
+std::vector<std::string> objects_of(const Show& show) {
   std::set<std::string> names;
   for (const Body& body : show.bodies) names.insert(body.name);
   const auto add_names = [&](const std::vector<Title>& titles) {
@@ -89,8 +88,12 @@ Cryptomatte identities(const Show& show, const FrameState& state,
   };
   add_names(show.titles);
   for (const Segment& segment : show.timeline) add_names(segment.titles);
-  const int width = columns(state.projection), height = rows(state.projection);
-  Cryptomatte identities(width, height, {names.begin(), names.end()});
+  return {names.begin(), names.end()};
+}
+
+Cryptomatte identities(const Show& show, const FrameState& state,
+                       const std::vector<Matte>& mattes) {
+  Cryptomatte identities(columns(state.projection), rows(state.projection), objects_of(show));
   for (std::size_t k = 0; k < show.bodies.size(); ++k)
     identities.add(show.bodies[k].name, mattes[k].covered);
   for (const SeenTitle& seen : seen_titles(show, state))

@@ -2,6 +2,7 @@
 // the hole's silhouette, to an image of the disc, to a body (docs/compositing.md).
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "pipeline/image/layer.h"
@@ -39,6 +40,9 @@ class MattePass {
   SkyBorders borders_;
   PerSky<bool> seen_;
 };
+
+// Returns the names of all objects that a cryptomatte of the show can tell apart.
+std::vector<std::string> objects_of(const Show& show);
 
 // Returns the identities of a frame's bodies and titles, from its mattes.
 Cryptomatte identities(const Show& show, const FrameState& state, const std::vector<Matte>& mattes);

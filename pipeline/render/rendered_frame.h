@@ -47,16 +47,39 @@ void render_for_files(AnyRenderer& renderer, const Show& show, const FrameState&
     frame.cryptomatte = identities(show, state, floats ? frame.full.mattes : frame.half.mattes);
 }
 
-// Writes the scene-linear file of a show that has one, but for layers that have files of their own.
-// Throws as write_frame.
-inline void write_linear(const std::filesystem::path& path, const Show& show,
-                         const RenderedFrame& frame, const FrameInfo& info) {
+// Returns what the scene-linear file has beside the frame's light.
+inline FrameData data_of(const Show& show, const RenderedFrame& frame) {
   FrameData data{.without_layers = show.output.layer_files};
   if (frame.lens) data.images.push_back(&*frame.lens);
   if (frame.cryptomatte) {
     data.images.push_back(&frame.cryptomatte->image());
     data.attributes = frame.cryptomatte->attributes();
   }
+  return data;
+}
+
+// Returns the bytes of a pixel in all scene-linear files of a frame, without compression: those of a
+// frame of one pixel.
+inline std::size_t linear_pixel_bytes(const Show& show) {
+  if (!show.output.linear) return 0;
+  RenderedFrame frame(show);
+  if (show.output.data.lens) frame.lens = ChannelImage(1, 1, lens_channel_names());
+  if (show.output.data.cryptomatte) frame.cryptomatte = Cryptomatte(1, 1, objects_of(show));
+  const auto bytes_of = [&](auto& light) {
+    light.set_size(1, 1);
+    std::size_t bytes = pixel_bytes(light, data_of(show, frame));
+    for (const auto& layer : light.layers)
+      if (show.output.layer_files) bytes += pixel_bytes(layer);
+    return bytes;
+  };
+  return RenderedFrame::keeps_floats(show) ? bytes_of(frame.full) : bytes_of(frame.half);
+}
+
+// Writes the scene-linear file of a show that has one, but for layers that have files of their own.
+// Throws as write_frame.
+inline void write_linear(const std::filesystem::path& path, const Show& show,
+                         const RenderedFrame& frame, const FrameInfo& info) {
+  const FrameData data = data_of(show, frame);
   const ExrCompression compression = show.output.linear->compression;
   if (RenderedFrame::keeps_floats(show))
     write_frame(path, frame.full, info, compression, data);

@@ -115,6 +115,41 @@ tells '^to render +not measured: to render the show is almost as quick$'
 exits 0 "$DOMEFALL" check short.yaml --json
 python3 -c 'import json; assert json.load(open("stdout"))["render"] is None'
 
+# Uncompressed floats with layers, mattes and data take as much as is said where nothing is measured,
+# but for headers.
+cat >large.yaml <<'END'
+size: 256
+frames_per_second: 1
+black_hole: {mass_solar: 4.3e6}
+sky: {region_I: {background: grid, stars: none}}
+disc: {}
+bodies: {beacon: {r: 9}, other: {r: 12}}
+timeline: [{duration_s: 2, trajectory: {type: static, r: 20}, titles: [{text: one}]}]
+output: {graded: tiff16, graded_alpha: true, linear: float, compression: none, layers: [sky, disc, titles], data: [lens, mattes, cryptomatte]}
+END
+sed 's/layers: /layer_files: true, &/' large.yaml >apart.yaml
+sed '/^output/d' large.yaml >halves.yaml
+echo 'output: {graded: none, compression: none}' >>halves.yaml
+for show in large apart halves; do
+  exits 0 "$DOMEFALL" check $show.yaml --json
+  cp stdout said
+  exits 0 "$DOMEFALL" check $show.yaml
+  tells '^on disk +at most '
+  exits 0 "$DOMEFALL" render $show.yaml --out $show
+  python3 - $show <<'END'
+import json, os, sys
+said = json.load(open('said'))['disk']
+assert not said['measured'], said
+made = {'linear': 0, 'graded': 0}
+for folder, _, files in os.walk(sys.argv[1]):
+    for name in files:
+        kind = 'graded' if name.endswith('.tif') else 'linear' if name.endswith('.exr') else None
+        if kind: made[kind] += os.path.getsize(os.path.join(folder, name)) / 2
+assert made['linear'] <= said['frame_linear_bytes'] <= 1.1 * made['linear'], (made, said)
+assert made['graded'] <= said['frame_graded_bytes'], (made, said)
+END
+done
+
 # Planets among the stars are told with their year.
 printf 'size: 64\nframes_per_second: 1\nbegins_year: 2020.5\nsky: {planets: true}\n%s\n' \
   'timeline: [{duration_s: 2}]' >planets.yaml

@@ -1,22 +1,28 @@
 #include <fmt/format.h>
 
 #include "pipeline/program/cli/check_page.h"
+#include "pipeline/render/rendered_frame.h"
 
 namespace domefall {
 namespace {
 
 // Returns the size of a pixel without any compression.
-double pixel_bytes(GradedKind kind) {
-  constexpr double kBytes16 = 6, kBytes8 = 3;
-  return kind == GradedKind::kPng16 || kind == GradedKind::kTiff16 ? kBytes16 : kBytes8;
+double graded_pixel_bytes(const GradedFormat& format) {
+  const bool wide = format.kind == GradedKind::kPng16 || format.kind == GradedKind::kTiff16;
+  return (wide ? 2 : 1) * (format.alpha ? 4 : 3);
 }
 
 }  // namespace
 
 DiskSize disk_size(const CheckReport& report) {
   const Show& show = report.show;
-  constexpr double kHalfPixel = 6, kFloatPixel = 12;
-  const double pixels = 1.0 * columns(show.projection) * rows(show.projection);
+  // These are the most that a file has beside its pixels: its header, and for each row where it
+  // stands and how long it is.
+  constexpr double kHeader = 8192, kRow = 16;
+  const double height = rows(show.projection), pixels = columns(show.projection) * height;
+  const auto files = [&](std::size_t count, double pixel_bytes) {
+    return pixel_bytes * pixels + static_cast<double>(count) * (kHeader + kRow * height);
+  };
   DiskSize size;
   size.frames = frame_count(show);
   size.measured = report.time.has_value();
@@ -24,9 +30,11 @@ DiskSize disk_size(const CheckReport& report) {
     size.linear = report.time->linear_bytes, size.graded = report.time->graded_bytes;
     return size;
   }
-  if (const auto& linear = show.output.linear)
-    size.linear = (linear->pixels == ExrPixels::kFloat ? kFloatPixel : kHalfPixel) * pixels;
-  if (show.output.graded) size.graded = pixel_bytes(show.output.graded->kind) * pixels;
+  const Output& output = show.output;
+  if (output.linear)
+    size.linear = files(1 + (output.layer_files ? output.layers.size() : 0),
+                        static_cast<double>(linear_pixel_bytes(show)));
+  if (output.graded) size.graded = files(1, graded_pixel_bytes(*output.graded));
   return size;
 }
 
