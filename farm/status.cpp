@@ -96,7 +96,7 @@ std::string farm_page(const FarmFrames& frames, const FarmStatus& status) {
   for (const BadFrames& bad : kBadFrames)
     if (const auto& list = found.of(bad.condition); !list.empty())
       page += fmt::format("  {:<12} {}: {}\n", bad.word, list.size(), as_ranges(list));
-  page += describe_work(found, frames.show()) + describe_foreign(status.foreign);
+  page += describe_work(found, frames.show()) + describe_foreign(status.foreign, frames.folder());
   add_writers(page, status);
   if (status.frames_per_second)
     page += fmt::format("  {:<12} {:.3g} frames/s, {} left\n", "rate", *status.frames_per_second,

@@ -77,6 +77,12 @@ exits 0 "$DOMEFALL" render apart.yaml --size 96 --frames "$number" --out apart -
 exits 0 "$DOMEFALL" render apart.yaml --size 96 --frames "$number" --out apart
 says '^1 frames made'
 same_frames apart/layers/disc whole/layers/disc
+sed 's/layers: \[[^]]*\]/layers: [disc]/' apart.yaml >fewer.yaml
+mkdir fewer
+mv fewer.yaml fewer/apart.yaml
+touch apart/layers/sky/notes.txt
+exits 0 "$DOMEFALL" render fewer/apart.yaml --size 96 --frames "$number" --out apart
+says '^apart: 1 file is not this show.s, and is left alone: layers/sky/notes.txt; 4 files are of layers that the show no longer asks for, and are left alone: layers/bodies/'
 
 # Graded files may have an alpha, of the dome's circle.
 for kind in png16 png8 tiff16 tiff8; do

@@ -226,14 +226,22 @@ std::string describe_work(const FolderFindings& found, const Show& show) {
   return lines(found.older_linear, "made") + lines(found.older_graded, "graded");
 }
 
-std::string describe_foreign(const std::vector<std::string>& files) {
-  if (files.empty()) return {};
+std::string describe_foreign(const std::vector<std::string>& files, const FrameFolder& folder) {
   constexpr std::size_t kMost = 3;
-  const bool many = files.size() > 1;
-  std::vector<std::string> names(files.size());
-  std::ranges::transform(files, names.begin(), printable);
-  return fmt::format("{} file{} not this show's, and {} left alone: {}\n", grouped(files.size()),
-                     many ? "s are" : " is", many ? "are" : "is", joined(std::move(names), kMost));
+  std::string text;
+  for (const bool unasked : {false, true}) {
+    std::vector<std::string> names;
+    for (const std::string& file : files)
+      if (folder.is_of_unasked_layer(file) == unasked) names.push_back(printable(file));
+    if (names.empty()) continue;
+    const bool many = names.size() > 1;
+    text += fmt::format("{}{} file{} {}, and {} left alone: ", text.empty() ? "" : "; ",
+                        grouped(names.size()), many ? "s are" : " is",
+                        unasked ? "of layers that the show no longer asks for" : "not this show's",
+                        many ? "are" : "is");
+    text += joined(std::move(names), kMost);
+  }
+  return text.empty() ? text : text + "\n";
 }
 
 }  // namespace domefall

@@ -85,8 +85,8 @@ std::map<int, int> by_segment(const std::vector<int>& frames, const Show& show);
 // 1,260 frames will be made again", or an empty text if there is none.
 std::string describe_work(const FolderFindings& found, const Show& show);
 
-// Returns one line, such as "40 files are not this show's, and are left alone: ...", or an empty text
-// if there are no such files.
-std::string describe_foreign(const std::vector<std::string>& files);
+// Returns one line about a folder's foreign files, such as "40 files are not this show's, and are left
+// alone: ...", or an empty text if there are none.
+std::string describe_foreign(const std::vector<std::string>& files, const FrameFolder& folder);
 
 }  // namespace domefall

@@ -225,6 +225,16 @@ std::vector<std::string> FrameFolder::foreign_files() const {
   return found;
 }
 
+bool FrameFolder::is_of_unasked_layer(const fs::path& file) const {
+  const auto frame = frame_of(file);
+  if (!frame || *frame >= frame_count(show_)) return false;
+  const std::vector<Layer> asked = layers();
+  for (std::size_t k = 0; k < kLayers.size(); ++k)
+    if (const auto one = static_cast<Layer>(k); layer(*frame, one) == folder_ / file)
+      return std::ranges::find(asked, one) == asked.end();
+  return false;
+}
+
 void FrameFolder::prepare(const std::vector<int>& frames, bool for_lens_maps) const {
   std::set<fs::path> made;
   for (const int frame : frames)

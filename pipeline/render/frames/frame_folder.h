@@ -66,6 +66,10 @@ class FrameFolder {
   // folder.  Such files have numbers beyond the show's end, or another name or kind.  Hidden files do not count.
   std::vector<std::string> foreign_files() const;
 
+  // Says whether a path below the folder is that of one of the show's frames in a layer that the show
+  // does not ask for.
+  bool is_of_unasked_layer(const std::filesystem::path& file) const;
+
   // Makes the folders that files of these frames are to be put into, as make_folder().
   void prepare(const std::vector<int>& frames, bool for_lens_maps = false) const;
 

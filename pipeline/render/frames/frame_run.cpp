@@ -60,7 +60,7 @@ class Run {
       folder_.check_owner();
     }
     if (const std::string note = ocio_note(run_.show.grade); !note.empty() && grader_) say(note);
-    const std::string foreign = describe_foreign(folder_.foreign_files());
+    const std::string foreign = describe_foreign(folder_.foreign_files(), folder_);
     const std::string text = describe_work(found, run_.show) +
                              (foreign.empty() ? "" : run_.folder.string() + ": " + foreign);
     if (!text.empty()) say(text);
