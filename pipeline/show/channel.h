@@ -29,6 +29,8 @@ enum class Channel {
   kMaxMagnitudeIV,
   kDiscLuminance,
   kDiscOpacity,
+  kTitleGain,  // of all titles
+  kTitleOpacity,
   kSlopeR,  // of the CDL; each triple is red, green and blue
   kSlopeG,
   kSlopeB,
@@ -40,7 +42,7 @@ enum class Channel {
   kPowerB,
   kSaturation
 };
-inline constexpr std::size_t kChannels = 26;
+inline constexpr std::size_t kChannels = 28;
 
 inline constexpr std::array<Channel, kChannels> kEveryChannel = [] {
   std::array<Channel, kChannels> all{};
@@ -123,6 +125,8 @@ inline std::string key_of(Channel channel) {
                                                           "sky.region_IV.stars.max_magnitude",
                                                           "disc.luminance_cd_m2",
                                                           "disc.opacity",
+                                                          "title_light.gain",
+                                                          "title_light.opacity",
                                                           "grade.cdl.slope",
                                                           "grade.cdl.slope",
                                                           "grade.cdl.slope",

@@ -28,6 +28,8 @@ FrameSettings settings_at(const Show& show, const Segment& s, double t) {
     settings.disc_gain = value_at(s, Channel::kDiscLuminance, t, luminance) / luminance;
     settings.disc_opacity = value_at(s, Channel::kDiscOpacity, t, show.disc->opacity);
   }
+  settings.title_gain = value_at(s, Channel::kTitleGain, t, 1);
+  settings.title_opacity = value_at(s, Channel::kTitleOpacity, t, 1);
   if (std::ranges::none_of(s.magnitudes, [](const auto& curve) { return curve.has_value(); }))
     return settings;
   for (std::size_t k = 0; k < show.bodies.size(); ++k)
@@ -49,9 +51,13 @@ Cdl cdl_at(const Show& show, const Segment& s, double t) {
   return cdl;
 }
 
-// Returns the CDL during a dissolve, while the part `vanishing` of `other` is left.
+// Returns a number during a dissolve, while the part `vanishing` of `other` is left.
+double mixed(double number, double other, double vanishing) {
+  return number + (other - number) * vanishing;
+}
+
 Cdl mixed(const Cdl& cdl, const Cdl& other, double vanishing) {
-  const auto mix = [vanishing](double a, double b) { return a + (b - a) * vanishing; };
+  const auto mix = [vanishing](double a, double b) { return mixed(a, b, vanishing); };
   Cdl between;
   for (std::size_t k = 0; k < 3; ++k) {
     between.slope[k] = mix(cdl.slope[k], other.slope[k]);
@@ -131,6 +137,10 @@ FrameState state_at(const Show& show, int segment, int frame, double t, const Pr
       std::make_shared<const FrameState>(state_in(show, segment - 1, frame, t, image));
   state.vanishing_part = 1 - smooth_step(faded / dissolve);
   state.cdl = mixed(state.cdl, state.vanishing->cdl, state.vanishing_part);
+  // Titles are drawn once, over the mixture of both views.
+  const FrameSettings& other = state.vanishing->settings;
+  for (double FrameSettings::*number : {&FrameSettings::title_gain, &FrameSettings::title_opacity})
+    state.settings.*number = mixed(state.settings.*number, other.*number, state.vanishing_part);
   return state;
 }
 

@@ -10,8 +10,8 @@
 
 namespace domefall {
 
-// FrameSettings hold the exposure and the numbers of skies, disc and bodies at one instant, which
-// keyframes may have changed.
+// FrameSettings hold the exposure and the numbers of skies, disc, bodies and titles at one instant,
+// which keyframes may have changed.
 struct FrameSettings {
   struct Sky {
     double background_gain = 1, star_gain = 1;
@@ -24,6 +24,8 @@ struct FrameSettings {
   PerSky<Sky> sky;  // of region IV only background_gain is used
   // The disc's light is that of Show::disc times the gain.
   double disc_gain = 1, disc_opacity = 1;
+  // These are factors on the light and the opacity of all titles.
+  double title_gain = 1, title_opacity = 1;
   std::vector<double> magnitudes;  // of the show's bodies; empty where none is keyframed
 };
 

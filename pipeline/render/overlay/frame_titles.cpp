@@ -26,7 +26,8 @@ std::vector<SeenTitle> seen_titles(const Show& show, const FrameState& state) {
     for (const Title& title : titles) {
       const double t = state.show_time_s;
       if (!(t >= title.begin_s && t < title.end_s)) continue;
-      const double opacity = light_left(title.fades, title.begin_s, title.end_s, t);
+      const double opacity =
+          state.settings.title_opacity * light_left(title.fades, title.begin_s, title.end_s, t);
       if (opacity > 0) seen.push_back({&title, text_at(show, title, state), opacity});
     }
   };
@@ -106,6 +107,9 @@ std::string titles_key(const Show& show, const FrameState& state) {
   if (seen.empty()) return {};
   Digest digest;
   add_rotation(digest, state.camera_from_audience);
+  // A gain that changes nothing adds nothing, so that shows without one keep their keys.
+  if (const double gain = state.settings.title_gain; gain != 1)
+    digest.add("gain").add(rounded_for_key(gain));
   for (const SeenTitle& one : seen) {
     const Title& title = *one.title;
     add_outlines(digest, *title_letters(one.text, title.style));
@@ -151,11 +155,15 @@ std::vector<float> covered_by(const Show& show, const SeenTitle& seen, const Fra
 }
 
 void draw_titles(const Show& show, const FrameState& state, const FrameRef& frame) {
+  // The brightest title stays below the largest half even with the largest gain.
+  const auto gain = static_cast<float>(state.settings.title_gain);
   // Each title has its own light and opacity, and so its own coverage.
   for (const SeenTitle& seen : seen_titles(show, state)) {
     const TitleOnDome drawn(show, seen, state);
     draw_over(drawn.ground(), {{0, 0, 0}, seen.opacity}, state.projection, frame);
-    draw_over(drawn.ink(), {seen.title->light, seen.opacity}, state.projection, frame);
+    const WorkingRgb& light = seen.title->light;
+    draw_over(drawn.ink(), {{light.r * gain, light.g * gain, light.b * gain}, seen.opacity},
+              state.projection, frame);
   }
 }
 

@@ -62,6 +62,9 @@ ChannelValues read_values(const Section& section, const Show& show,
   const Section light(disc, {"disc.light"});
   values[Channel::kDiscLuminance] = light.given("luminance_cd_m2");
   values[Channel::kDiscOpacity] = light.given("opacity");
+  const Section titles(section.find("title_light"), {"title_light"});
+  values[Channel::kTitleGain] = titles.given("gain");
+  values[Channel::kTitleOpacity] = titles.given("opacity");
   const Section sky(section.find("sky"), {"sky"});
   const std::string_view background = read_background ? "sky.background" : "sky.gain";
   for (const SkyRegion region : kEverySky) {

@@ -47,7 +47,7 @@ constexpr std::string_view kRows = R"(
 | `fade_in_s`, `fade_out_s` | at least 0: seconds in which the segment comes out of black, and sinks to it | [0] |
 | `dissolve_s` | at least 0: a cross-dissolve: the segment's first seconds lie over the last ones of the segment before, and both are seen, the one fading into the other. At most as long as either | [0]: a cut |
 | `camera` | keys of `camera` that differ in this segment, or the name of one of the `cameras` | the show's camera |
-| `exposure`, `grade`, `sky`, `disc`, `bodies` | what differs in this segment: `exposure: {ev}`, `grade: {cdl}`, `disc: {luminance_cd_m2, opacity}`, `bodies: {NAME: {magnitude}}`, `sky: {region_I: {background, white_cd_m2, black_cd_m2, gain, stars: {max_magnitude, gain}}, region_III: the same, region_IV: {background, white_cd_m2, black_cd_m2, period_m, gain}}`. A background that a segment names has its own white and black; what else a segment does not name is the show's; its `region_III` does not follow its `region_I` | the show's |
+| `exposure`, `grade`, `sky`, `disc`, `bodies`, `title_light` | what differs in this segment: `exposure: {ev}`, `grade: {cdl}`, `disc: {luminance_cd_m2, opacity}`, `bodies: {NAME: {magnitude}}`, `title_light: {gain, opacity}`, `sky: {region_I: {background, white_cd_m2, black_cd_m2, gain, stars: {max_magnitude, gain}}, region_III: the same, region_IV: {background, white_cd_m2, black_cd_m2, period_m, gain}}`. A background that a segment names has its own white and black; what else a segment does not name is the show's; its `region_III` does not follow its `region_I` | the show's |
 | `keyframes` | what changes during the segment, [below](#keyframes) | |
 | `titles` | texts that are seen in this segment, [below](#titles) | |
 ## trajectory
@@ -159,7 +159,7 @@ constexpr std::string_view kRows = R"(
 ## keyframes
 | `at_s` | at least 0: a [time](#times-and-markers) since the start of the show, or of the segment, or a marker | required |
 | `camera` | its keys as above, without `projection` and `cut`, or the name of one of the `cameras` | |
-| `exposure`, `grade`, `sky`, `disc`, `bodies` | as in a segment, without backgrounds | |
+| `exposure`, `grade`, `sky`, `disc`, `bodies`, `title_light` | as in a segment, without backgrounds | |
 | `ease` | `smooth`, `linear`, `hold`, `eased`, `eased_in` or `eased_out`: how the values of this keyframe are reached from the keyframe before that gives them; `hold` keeps the old values until this keyframe; `eased` goes from standing still to standing still, where `smooth` passes keyframes between others without a stop, and `eased_in` and `eased_out` stand still at their beginning and at their end only | [`smooth`] |
 | `name` | a name by which later keyframes look at the same target: `look_at: {keyframe: NAME}` | |
 ## titles
@@ -178,6 +178,9 @@ constexpr std::string_view kRows = R"(
 | `brightness` | 0 to 10000 pixel values: of its white | [1] |
 | `shadow` | 0 to 1: the part of the light that is taken away behind the letters and, softly, close around them | [0] |
 | `plate` | 0 to 1: the part of the light that is taken away behind the whole text, with soft edges | [0] |
+## title_light
+| `gain` | 0 to 6: a factor on the `brightness` of all titles that are seen then | [1] |
+| `opacity` | 0 to 1: a factor on how much they cover, with their plates and shadows; at 0 they are not there | [1] |
 ## sky
 | `region_I` | the sky outside, with the keys below | |
 | `region_III` | the other sky, with the same keys | like `region_I` |

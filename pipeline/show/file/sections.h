@@ -109,8 +109,8 @@ Camera camera_from(const CameraKeys& keys, const Projection& projection);
 // Reads `cdl: {slope, offset, power, saturation}` of a section `grade` into the CDL's channels.
 void read_cdl(const Section& grade, ChannelValues& values);
 
-// Reads `exposure: {ev}`, `grade: {cdl}` and the numbers of `sky` and `disc` of a segment or a
-// keyframe of `show`.  For a segment, whose skies may have backgrounds, `read_background` is called
+// Reads `exposure: {ev}`, `grade: {cdl}` and the numbers of `sky`, `disc` and `title_light` of a
+// segment or a keyframe of `show`.  For a segment, whose skies may have backgrounds, `read_background` is called
 // with the keys of each region.
 using BackgroundReader = std::function<void(SkyRegion region, const Section& keys)>;
 ChannelValues read_values(const Section& section, const Show& show,

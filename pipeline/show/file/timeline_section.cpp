@@ -114,6 +114,7 @@ class TimelineReader {
     const Disc disc = show_.disc.value_or(Disc{});
     values[Channel::kDiscLuminance] = disc.luminance;
     values[Channel::kDiscOpacity] = disc.opacity;
+    values[Channel::kTitleGain] = values[Channel::kTitleOpacity] = 1;
     for (const SkyRegion region : kEverySky) {
       const RegionSky& sky = show_.sky[region];
       values[gain_channel(region)] = sky.background_gain;

@@ -74,6 +74,28 @@ TEST_F(Keyframes, DiscsAndBodiesChange) {
   EXPECT_EQ(bodies_at(s, at(4))[1].magnitude, 9);
 }
 
+TEST_F(Keyframes, TheLightOfTitlesChangesAndIsMixedInADissolve) {
+  const Show s = show(
+      "frames_per_second: 1\n"
+      "keyframes: [{at_s: 4, ease: linear, title_light: {gain: 0.2}}]\n"
+      "timeline:\n"
+      "  - {duration_s: 6, trajectory: {type: static, r: 9}}\n"
+      "  - {duration_s: 4, dissolve_s: 2, trajectory: {type: static, r: 9}, title_light: {gain: 3, "
+      "opacity: 0.4}}\n");
+  const auto at = [&](int frame) { return frame_state(s, frame).settings; };
+  EXPECT_EQ(at(0).title_gain, 1);
+  EXPECT_EQ(at(0).title_opacity, 1);
+  EXPECT_DOUBLE_EQ(at(2).title_gain, 0.6);
+  EXPECT_NEAR(at(4).title_gain, 0.2, 1e-12);
+  EXPECT_DOUBLE_EQ(at(5).title_gain, 1.6) << "half way in the dissolve";
+  EXPECT_DOUBLE_EQ(at(5).title_opacity, 0.7);
+  EXPECT_DOUBLE_EQ(at(7).title_gain, 3);
+  EXPECT_DOUBLE_EQ(at(7).title_opacity, 0.4);
+  EXPECT_NE(complaint("timeline: [{duration_s: 1, title_light: {gain: 7}}]\n")
+                .find("title_light.gain must be at most 6"),
+            std::string::npos);
+}
+
 TEST_F(Keyframes, SkiesAndFieldsOfViewChange) {
   const Show s = show(
       "frames_per_second: 1\nsize: [32, 32]\n"

@@ -28,7 +28,8 @@ TEST_F(ShowErrorsInTimelines, TheListOfSegments) {
        "frame lasts 0.03333333333 s"},
       {"timeline: [{duration_s: 1, orbits: 2, trajectory: {type: circular, r: 9}}]",
        "2:28: timeline[1].orbits is an unknown key; known here: duration_s, trajectory, fade_in_s, "
-       "fade_out_s, dissolve_s, camera, exposure, grade, sky, disc, bodies, keyframes or titles"},
+       "fade_out_s, dissolve_s, camera, exposure, grade, sky, disc, bodies, title_light, keyframes "
+       "or titles"},
   });
   expect_complaints({
       {kHole, "1:1: timeline is missing: a list of segments"},

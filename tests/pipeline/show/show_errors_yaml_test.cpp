@@ -56,7 +56,8 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"timeline: *shots\n", "1:11: this alias (*) has no anchor (&) before it"},
       {"timeline: &t [*t]\n",
        "1:11: timeline[1] must be a map of keys (duration_s, trajectory, fade_in_s, fade_out_s, "
-       "dissolve_s, camera, exposure, grade, sky, disc, bodies, keyframes or titles), got a list"},
+       "dissolve_s, camera, exposure, grade, sky, disc, bodies, title_light, keyframes or titles), "
+       "got a list"},
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/overlay/bent_text.h"
@@ -186,6 +187,29 @@ TEST(FrameTitles, FadeEvenlyToTheEyeAndEndWithTheirTime) {
   EXPECT_NEAR(whole.row(row)[at], 2, 1e-3);
   EXPECT_NEAR(whole.row(row)[at + 2], 0.5, 1e-3);
   EXPECT_NEAR(half.row(row)[at], 0.5, 1e-3);
+}
+
+TEST(FrameTitles, HaveThePartOfTheirLightThatAKeyframeLeaves) {
+  Title title = title_of("█", 0, 45, 20);
+  title.light = {2, 1, 0.5f};
+  Show show = titled(title, Domemaster{64});
+  const auto pixel = pixel_of(show.projection, on_dome(0, 45));
+  const int at = 3 * (static_cast<int>(pixel->i) - 1), row = static_cast<int>(pixel->j) - 1;
+  const auto light = [&] { return static_cast<float>(frame_of(show).row(row)[at]); };
+  const auto key = [&] { return FrameKeys(show).scene(frame_state(show, 0)); };
+  std::set<std::string> keys{key()};
+  EXPECT_EQ(light(), 2);
+  show.timeline[0].curves[Channel::kTitleGain] = Curve{{{0, 0.25}}};
+  keys.insert(key());
+  EXPECT_EQ(light(), 0.5);
+  show.timeline[0].curves[Channel::kTitleOpacity] = Curve{{{0, 0.5}}};
+  keys.insert(key());
+  EXPECT_EQ(light(), 0.25);
+  EXPECT_EQ(keys.size(), 3U);
+  // At 0 there is no title.
+  show.timeline[0].curves[Channel::kTitleOpacity] = Curve{{{0, 0}}};
+  EXPECT_EQ(titles_key(show, frame_state(show, 0)), "");
+  EXPECT_EQ(light(), 0);
 }
 
 TEST(FrameTitles, CoverWhatIsBehindAndAreNotFadedWithIt) {
