@@ -94,10 +94,9 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.effects = read_effects(section);
   show.grade = read_grade(section, lookup);
   show.draws_titles = section.flag("draw_titles");
-  show.timeline = read_timeline(section, show, camera, lookup);
-  // The observer is followed, and events are found, along a timeline without mistakes.
+  read_timeline(section, camera, lookup, show);
+  // The observer is followed along a timeline without mistakes.
   if (root.problems->count() == 0) join_segments(show);
-  find_marked_events(section, show);
   if (!show.timeline.empty()) show.titles = read_titles(section, {0, end_of(show)}, show, lookup);
   show.grade.dome = read_dome(section, show.projection);
   show.output = read_output(section);

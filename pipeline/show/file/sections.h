@@ -158,9 +158,8 @@ Fades read_fades(const Section& section);
 void check_fades(const Section& section, const Fades& fades, double duration, const char* of);
 
 // Reads the segments of a `show` that has everything else already, except for its titles, its
-// output and the settings of its dome.
-std::vector<Segment> read_timeline(const Section& section, const Show& show,
-                                   const ShowCamera& camera, Lookup& lookup);
+// output and the settings of its dome, and finds the times of markers that name events.
+void read_timeline(const Section& section, const ShowCamera& camera, Lookup& lookup, Show& show);
 
 // Reads the section `wormhole`, but not where it stands.
 Wormhole read_wormhole(const Section& s);

@@ -6,14 +6,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/frame_rate.h"
 #include "pipeline/base/utf8.h"
 #include "pipeline/show/file/otio_markers.h"
 #include "pipeline/show/nearest_word.h"
-#include "pipeline/show/observer_track.h"
 
 namespace domefall {
 namespace {
@@ -176,102 +174,6 @@ std::vector<Marker> read_markers(const Section& show, const Lookup& lookup) {
   return markers;
 }
 
-namespace {
-
-// ---- events ----
-
-constexpr int kHalvings = 60;
-
-// A Way is how far from the hole a segment's observer is when a part of it has passed.
-class Way {
- public:
-  Way(const Show& show, int segment) : show_(show), segment_(segment) {}
-
-  double r(double part) const { return observer_at(show_, segment_, part).r; }
-
-  // Returns the part at which r is a value that it passes between two others.
-  double crossing(double from, double to, double value) const {
-    const bool falls = r(from) > value;
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = std::midpoint(from, to);
-      ((r(middle) > value) == falls ? from : to) = middle;
-    }
-    return to;
-  }
-
-  // Returns the part at which r is least, where it falls and then rises.
-  double lowest(double from, double to) const {
-    for (int k = 0; k < kHalvings; ++k) {
-      const double left = from + (to - from) / 3, right = to - (to - from) / 3;
-      (r(left) < r(right) ? to : from) = r(left) < r(right) ? right : left;
-    }
-    return std::midpoint(from, to);
-  }
-
- private:
-  const Show& show_;
-  int segment_;
-};
-
-// Returns the part of a segment that has passed when the observer is at r for the first time.  The
-// ends of segments are where they were meant to be but for rounding.
-std::optional<double> part_at_radius(double r, const Way& way, int steps) {
-  constexpr double kRounding = 1e-9;
-  double last = way.r(0);
-  for (int k = 0; k <= steps; ++k) {
-    const double part = static_cast<double>(k) / steps, now = way.r(part);
-    if (std::abs(now - r) <= kRounding * r) return part;
-    if ((last - r) * (now - r) < 0) return way.crossing(part - 1.0 / steps, part, r);
-    last = now;
-  }
-  return std::nullopt;
-}
-
-// Returns the part that has passed when r is least between larger ones.
-std::optional<double> part_at_periastron(const Way& way, int steps) {
-  double before = way.r(0), last = before;
-  for (int k = 1; k <= steps; ++k) {
-    const double part = static_cast<double>(k) / steps, now = way.r(part);
-    if (k > 1 && before > last && last <= now) return way.lowest(part - 2.0 / steps, part);
-    before = last, last = now;
-  }
-  return std::nullopt;
-}
-
-// Returns the show second of the first instant of an event, or nothing for one that no segment has.
-std::optional<double> time_of(const MarkerEvent& event, const Show& show) {
-  constexpr double kStepsPerFrame = 4;
-  constexpr int kFewest = 64, kMost = 40'000;
-  if (show.spacetime.is_flat()) return std::nullopt;
-  for (int k = 0; k < static_cast<int>(show.timeline.size()); ++k) {
-    const double duration = segment_of(show, k).duration_s;
-    const double steps = duration * show.frames_per_second * kStepsPerFrame;
-    const int count = static_cast<int>(std::clamp(steps, double{kFewest}, double{kMost}));
-    const Way way(show, k);
-    const auto part =
-        event.r ? part_at_radius(*event.r, way, count) : part_at_periastron(way, count);
-    if (part) return begin_of(show, k) + *part * duration;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-void find_marked_events(const Section& section, Show& show) {
-  for (Marker& marker : show.markers) {
-    if (!marker.event) continue;
-    // A timeline with mistakes, which has no joints, has been reported.
-    const auto at = show.joints.empty() ? 0 : time_of(*marker.event, show);
-    if (!at)
-      peek(*section.find("markers"), marker.name)
-          ->fail(marker.event->r
-                     ? fmt::format("happens nowhere in the show, which is never at r = {}",
-                                   short_number(*marker.event->r))
-                     : "happens nowhere in the show, whose r never falls and rises again");
-    marker.at_s = at.value_or(0);
-  }
-}
-
 std::optional<double> read_time(const Item& item, const Range& range,
                                 const std::vector<Marker>& markers, double start) {
   if (item.node.IsScalar()) {
@@ -279,10 +181,8 @@ std::optional<double> read_time(const Item& item, const Range& range,
     const std::string& text = item.node.Scalar();
     if (const auto clock = parse_clock_time(text)) return in_range(item, *clock, range);
     if (const Marker* marker = find_marker(text, markers)) {
-      if (!std::isnan(marker->at_s)) return read_marked(item, *marker, range, start);
-      item.fail("is an event, '" + shown(text) +
-                "', whose time follows from the timeline; titles of the show may begin at it");
-      return std::nullopt;
+      // An event without a time, or the timeline that lacks it, has been reported.
+      return std::isnan(marker->at_s) ? std::nullopt : read_marked(item, *marker, range, start);
     }
     if (text.find(':') != std::string::npos) {
       const std::string odd = odd_character(text);

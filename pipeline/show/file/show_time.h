@@ -28,12 +28,6 @@ void read_frame_rate(const Section& section, Show& show);
 // Reads the show's `markers`, which are in the show or in a file of OpenTimelineIO.
 std::vector<Marker> read_markers(const Section& show, const Lookup& lookup);
 
-// Finds the instants of markers that name events, on a timeline that has its joints.  Without them
-// all are at 0.  The way is
-// followed in steps of a quarter of a frame, so that two turns within one may be missed.  Reports an
-// event that no segment has.
-void find_marked_events(const Section& section, Show& show);
-
 // Reads a time as parse_time does, in seconds since the show's second `start`.  Numbers and clock
 // times count from there, and markers from the beginning of the show.
 std::optional<double> read_time(const Item& item, const Range& range,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "pipeline/show/file/marked_events.h"
 #include "pipeline/show/file/sections.h"
 #include "pipeline/show/file/show_time.h"
 #include "pipeline/show/file/trajectory_section.h"
@@ -31,40 +32,65 @@ bool ever_has(const Segment& s, double begin, double end) {
   return false;
 }
 
-// A TimelineReader reads segment after segment, since each begins where the one before ends.
+// A TimelineReader first reads the ways of all segments, since each begins where the one before
+// ends, and then what is seen on them.
 class TimelineReader {
  public:
-  TimelineReader(const Show& show, ShowCamera camera, std::vector<Keyframe> keyframes,
-                 Lookup& lookup)
-      : show_(show),
-        camera_(std::move(camera)),
-        keyframes_(std::move(keyframes)),
-        lookup_(lookup) {}
+  TimelineReader(Show& show, Lookup& lookup)
+      : show_(show), events_(show.markers, show.frames_per_second), lookup_(lookup) {}
 
-  void read(const Item& item) {
-    const Section section(item, {"timeline"});
+  void read_way(const Item& item) {
+    Course course{item, Section(item, {"timeline"})};
+    const Section& section = course.section;
     Segment segment;
     // The dissolve comes first, since a duration that is a marker counts from where the segment
     // begins.
     const double dissolve = read_dissolve(section);
-    segment.duration_s = read_duration(section, end_ - dissolve);
+    const Item* duration = section.require("duration_s", " (seconds)");
+    Marker* const event = duration ? events_.coming(*duration) : nullptr;
+    std::optional<double> seconds;
+    if (event)
+      seconds = read_seconds_until(*event, course, *duration);
+    else if (duration)
+      seconds = read_time(*duration, section.range("duration_s"), show_.markers, end_ - dissolve);
+    segment.duration_s = seconds.value_or(1);
     if (fits_dissolve(section, dissolve, segment)) segment.dissolve_s = dissolve;
     segment.fades = read_fades(section);
     check_fades(section, segment.fades, segment.duration_s, "the segment");
-    const double begin = end_ - segment.dissolve_s;
-    read_view(section, begin, segment);
-    read_motion(item, section, begin, segment);
-    end_ = begin + segment.duration_s;
-    segment.titles = read_titles(section, {begin, end_}, show_, lookup_);
+    course.begin_s = end_ - segment.dissolve_s;
+    if (seconds || !event) course.moves = read_motion(course, segment);
+    end_ = course.begin_s + segment.duration_s;
+    if (event && seconds) event->at_s = end_;
+    if (course.moves && !show_.spacetime.is_flat()) events_.follow(segment, course.begin_s);
     joint_ = joint_after(
         segments_.empty() ? first_joint(show_, segment) : joint_into(joint_, segment), segment);
     segments_.push_back(std::move(segment));
+    courses_.push_back(std::move(course));
+  }
+
+  void read_views(const ShowCamera& camera, const std::vector<Keyframe>& keyframes) {
+    camera_ = camera, keyframes_ = keyframes;
+    for (std::size_t k = 0; k < segments_.size(); ++k) {
+      const auto& [item, section, begin, moves] = courses_[k];
+      Segment& segment = segments_[k];
+      read_view(section, begin, segment);
+      if (moves) check_targets(item, segment, begin);
+      segment.titles = read_titles(section, {begin, begin + segment.duration_s}, show_, lookup_);
+    }
   }
 
   double end() const { return end_; }
   std::vector<Segment> take() { return std::move(segments_); }
 
  private:
+  // A Course is a segment of the file whose way has been read.
+  struct Course {
+    Item item;
+    Section section;
+    double begin_s = 0;
+    bool moves = false;  // without a mistake
+  };
+
   double read_dissolve(const Section& section) const {
     const Item* item = section.find("dissolve_s");
     if (!item) return 0;
@@ -73,11 +99,39 @@ class TimelineReader {
     return 0;
   }
 
-  double read_duration(const Section& section, double begin) const {
-    const Item* item = section.require("duration_s", " (seconds)");
-    const auto seconds =
-        item ? read_time(*item, section.range("duration_s"), show_.markers, begin) : std::nullopt;
-    return seconds.value_or(1);
+  // Returns the seconds after which an event ends a segment, or reports that nobody knows.  The
+  // clock must have a rate of its own: any other follows from the duration.
+  std::optional<double> read_seconds_until(const Marker& event, const Course& course,
+                                           const Item& duration) {
+    const auto refuse = [&](const std::string& why) {
+      duration.fail("names the event '" + shown(event.name) + "', " + why);
+      return std::nullopt;
+    };
+    const Item* trajectory = course.section.find("trajectory");
+    const auto has = [&](const char* key) { return trajectory && peek(*trajectory, key); };
+    if (show_.spacetime.is_flat()) return refuse("which needs a black hole");
+    if (!(has("rate_m_per_s") || has("time_lapse")) || has("to_r") || has("to_tau_m") ||
+        has("orbits"))
+      return refuse(
+          "whose time would follow from this duration; give the trajectory rate_m_per_s or "
+          "time_lapse, and no end");
+    // The same rate for so short a time stays within any trajectory.
+    constexpr double kTrial = 1e-3;
+    const auto motion = read_timed(course, kTrial);
+    if (!motion) return std::nullopt;
+    const ProperTime& begin = motion->timing.tau_begin;
+    const double rate = double(motion->timing.tau_end - begin) / kTrial;
+    if (!(rate > 0)) return refuse("but the clock of the segment stands still");
+    const auto tau = time_of_event(*event.event, motion->trajectory, begin);
+    if (!tau)
+      return refuse(event.event->r ? "but its way is never there"
+                                   : "but its way has no periastron that is known in closed form");
+    const double seconds = double(*tau - begin) / rate;
+    if (!(seconds > 0)) return refuse("which happens as the segment begins");
+    if (seconds > kLongest)
+      return refuse(fmt::format("which comes after {} s; at most {} are possible",
+                                short_number(seconds), short_number(kLongest)));
+    return seconds;
   }
 
   // Says whether a dissolve is short enough.  At most two segments are seen at a time, so that a
@@ -182,33 +236,37 @@ class TimelineReader {
     return attitude;
   }
 
-  void read_motion(const Item& item, const Section& section, double begin, Segment& segment) {
+  // Reads the trajectory of a segment of that duration, or reports why there is none.
+  std::optional<TimedTrajectory> read_timed(const Course& course, double duration) {
+    const auto& [item, section, begin, moves] = course;
     const Item* trajectory = section.find("trajectory");
-    std::optional<TimedTrajectory> motion;
+    if (!trajectory && show_.spacetime.is_flat())
+      return TimedTrajectory{StaticObserver{}, {0, duration}, {}};
+    section.require("trajectory", ", e.g. {type: infall, from_r: 30}");
+    if (!trajectory) return std::nullopt;
     const std::size_t reported = item.problems->count();
-    Stage stage{show_.spacetime, axes_before(), segment.duration_s,
+    Stage stage{show_.spacetime, axes_before(), duration,
                 nullptr,         &show_.bodies, segments_.empty() ? 0 : rain_time(joint_)};
     if (!segments_.empty()) stage.before = &segments_.back();
-    if (!trajectory && show_.spacetime.is_flat()) {
-      motion = TimedTrajectory{StaticObserver{}, {0, segment.duration_s}, {}};
-    } else {
-      section.require("trajectory", ", e.g. {type: infall, from_r: 30}");
-      if (trajectory) motion = read_trajectory(*trajectory, stage, lookup_);
-    }
-    if (!motion) {
-      // The readers have reported what is wrong.  In any case a segment without motion must not
-      // pass.
-      if (trajectory && item.problems->count() == reported)
-        trajectory->fail("leads nowhere that a show can follow");
-      return;
-    }
+    auto motion = read_trajectory(*trajectory, stage, lookup_);
+    // The readers have reported what is wrong.  In any case a segment without motion must not pass.
+    if (!motion && item.problems->count() == reported)
+      trajectory->fail("leads nowhere that a show can follow");
+    return motion;
+  }
+
+  // Says whether a segment has a motion.
+  bool read_motion(const Course& course, Segment& segment) {
+    const auto motion = read_timed(course, segment.duration_s);
+    if (!motion) return false;
+    const Item* trajectory = course.section.find("trajectory");
     const auto type = trajectory ? peek(*trajectory, "type") : std::nullopt;
     if (type) segment.type = type->node.Scalar();
     if (segment.type == "continue") segment.type = segments_.back().type;
     segment.trajectory = motion->trajectory;
     segment.timing = motion->timing;
     segment.placement = motion->placement;
-    check_targets(item, segment, begin);
+    return true;
   }
 
   M33d axes_before() const {
@@ -236,12 +294,14 @@ class TimelineReader {
   }
 
   const Show& show_;
-  ShowCamera camera_;
-  std::vector<Keyframe> keyframes_;
+  MarkedEvents events_;
   Lookup& lookup_;
+  std::vector<Course> courses_;    // of the segments
   std::vector<Segment> segments_;  // that have been read
   Joint joint_;                    // what the next one takes over
   double end_ = 0;
+  ShowCamera camera_;
+  std::vector<Keyframe> keyframes_;
 };
 
 void fail_behind_the_end(const Item& item, double end) {
@@ -281,20 +341,15 @@ void check_fades(const Section& section, const Fades& fades, double duration, co
                          short_number(fades.in_s + fades.out_s), of, short_number(duration)));
 }
 
-std::vector<Segment> read_timeline(const Section& section, const Show& show,
-                                   const ShowCamera& camera, Lookup& lookup) {
+void read_timeline(const Section& section, const ShowCamera& camera, Lookup& lookup, Show& show) {
   const Item* list = section.require("timeline", ": a list of segments");
   const auto items = list ? read_list(*list) : std::nullopt;
-  if (!items) return {};
-  ShowCamera named = camera;
-  const Item* keyframe_list = section.find("keyframes");
-  std::vector<Keyframe> keyframes;
-  if (keyframe_list) keyframes = read_keyframes(*keyframe_list, {0, kLongest}, show, named, lookup);
+  if (!items) return;
   const std::size_t reported = list->problems->count();
-  TimelineReader reader(show, named, keyframes, lookup);
+  TimelineReader reader(show, lookup);
   bool fitted = true;
   for (const Item& item : *items) {
-    reader.read(item);
+    reader.read_way(item);
     const double frames = reader.end() * show.frames_per_second;
     if (fitted && frames > kMostFrames)
       item.fail(fmt::format("brings the show to {} frames; at most {} are possible",
@@ -307,12 +362,20 @@ std::vector<Segment> read_timeline(const Section& section, const Show& show,
         "ends after {} s, before half a frame is over; at {} frames per second a frame lasts {} s",
         short_number(reader.end()), short_number(show.frames_per_second),
         short_number(1 / show.frames_per_second)));
+  // Where the way has mistakes, an event may be missing because of them.
+  if (const Item* markers = section.find("markers"); markers && list->problems->count() == 0)
+    report_missing_events(*markers, show.markers);
+  ShowCamera named = camera;
+  const Item* keyframe_list = section.find("keyframes");
+  std::vector<Keyframe> keyframes;
+  if (keyframe_list) keyframes = read_keyframes(*keyframe_list, {0, kLongest}, show, named, lookup);
   if (keyframe_list) check_keyframes(*keyframe_list, keyframes, reader.end());
+  reader.read_views(named, keyframes);
   if (list->problems->count() == reported) {
     check_markers(section, show.markers, reader.end());
     check_fades(section, show.fades, reader.end(), "the show");
   }
-  return reader.take();
+  show.timeline = reader.take();
 }
 
 }  // namespace domefall

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <tuple>
+
 #include "pipeline/show/observer_track.h"
 #include "tests/pipeline/show/show_file.h"
 
@@ -93,10 +96,104 @@ TEST_F(ShowTimes, OfEventsThatCannotBeAreTold) {
             std::string::npos);
   EXPECT_NE(complaint(hole + "markers: {near: {R: 2}}\n" + rest).find("unknown key"),
             std::string::npos);
-  EXPECT_NE(complaint(hole + "markers: {gone: {r: 5}}\n"
-                             "timeline: [{duration_s: gone, trajectory: {type: static, r: 9}}]\n")
-                .find("is an event, 'gone', whose time follows from the timeline"),
-            std::string::npos);
+}
+
+TEST_F(ShowTimes, OfEventsMayBeThoseOfKeyframesAndOfTitlesOfSegments) {
+  const Show show = read(
+      "black_hole: {mass_solar: 4e6}\n"
+      "markers: {closest: periastron, horizon: {r: 2}, far: {r: 12}}\n"
+      "keyframes:\n"
+      "  - {at_s: closest, exposure: {ev: 3}}\n"
+      "  - {at_s: horizon, exposure: {ev: -2}}\n"
+      "timeline:\n"
+      "  - duration_s: 6\n"
+      "    trajectory: {type: parabolic, periastron: 6, from_r: 11, to_r: 6}\n"
+      "  - duration_s: 4\n"
+      "    trajectory: {type: continue, to_r: 15}\n"
+      "    keyframes: [{at_s: far, camera: {roll_deg: 30}}]\n"
+      "    titles: [{text: gone, at_s: far}]\n"
+      "  - {duration_s: 5, trajectory: {type: infall, from_r: 9, to_r: 1}}\n");
+  const double closest = show.markers[0].at_s, horizon = show.markers[1].at_s;
+  EXPECT_NEAR(closest, 6, 1e-6) << "at the joint of two segments";
+  EXPECT_GT(horizon, 10);
+  EXPECT_DOUBLE_EQ(value_at(show.timeline[0], Channel::kEv, closest, 99), 3);
+  EXPECT_DOUBLE_EQ(value_at(show.timeline[2], Channel::kEv, horizon, 99), -2);
+  const double far = show.timeline[1].titles[0].begin_s;
+  EXPECT_NEAR(observer_at(show, 1, part_at(show, 1, far)).r, 12, 1e-9);
+  EXPECT_NEAR(value_at(show.timeline[1], Channel::kRoll, far, 99), std::numbers::pi / 6, 1e-12);
+}
+
+// The observer stands still between the fall and the rise.
+TEST_F(ShowTimes, OfAPeriastronMayBeInAStandstill) {
+  const Show show = read(
+      "black_hole: {mass_solar: 4e6}\n"
+      "markers: {closest: periastron}\n"
+      "timeline:\n"
+      "  - {duration_s: 3, trajectory: {type: static, r: 20}}\n"
+      "  - {duration_s: 6, trajectory: {type: parabolic, periastron: 6, from_r: 30, to_r: 7}}\n"
+      "  - {duration_s: 2, trajectory: {type: continue, pace: frozen}}\n"
+      "  - {duration_s: 4, trajectory: {type: continue, to_leg: outward, to_r: 15}}\n");
+  EXPECT_NEAR(observer_at(show, 3, part_at(show, 3, show.markers[0].at_s)).r, 6, 1e-9);
+}
+
+TEST_F(ShowTimes, OfEventsEndSegmentsWhoseClocksHaveARate) {
+  const Show show = read(
+      "black_hole: {mass_solar: 4e6}\n"
+      "markers: {closest: periastron, horizon: {r: 2}, half: {r: 20}}\n"
+      "timeline:\n"
+      "  - duration_s: half\n"
+      "    trajectory: {type: parabolic, periastron: 6, from_r: 30, rate_m_per_s: [8, 4]}\n"
+      "  - {duration_s: closest, trajectory: {type: continue, rate_m_per_s: 4}}\n"
+      "  - {duration_s: 3, trajectory: {type: continue, rate_m_per_s: [4, 2]}}\n"
+      "  - duration_s: horizon\n"
+      "    dissolve_s: 1\n"
+      "    trajectory: {type: infall, rest_r: 12, time_lapse: 50}\n"
+      "  - {duration_s: 3, trajectory: {type: continue, to_r: 0.1, pace: slowing}}\n");
+  const std::vector<double> times = segment_times(show);
+  for (const auto& [segment, marker, r] :
+       {std::tuple(0, 2, 20.0), std::tuple(1, 0, 6.0), std::tuple(3, 1, 2.0)}) {
+    const double end =
+        times[static_cast<std::size_t>(segment)] + segment_of(show, segment).duration_s;
+    EXPECT_NEAR(show.markers[static_cast<std::size_t>(marker)].at_s, end, 1e-9);
+    EXPECT_NEAR(observer_at(show, segment, 1).r, r, 1e-9);
+  }
+  const Timing& timing = show.timeline[0].timing;
+  EXPECT_NEAR(double(timing.tau_end - timing.tau_begin) / show.timeline[0].duration_s, 6, 1e-12)
+      << "the mean of both rates";
+}
+
+TEST_F(ShowTimes, OfEventsThatFollowFromTheDurationItselfAreTold) {
+  const auto ending = [](const std::string& event, const std::string& trajectory) {
+    return "black_hole: {mass_solar: 4e6}\nmarkers: {it: " + event +
+           "}\ntimeline: [{duration_s: it, trajectory: {" + trajectory + "}}]\n";
+  };
+  const std::string at = "3:25: timeline[1].duration_s names the event 'it', ";
+  const std::string circle =
+      at +
+      "whose time would follow from this duration; give the trajectory rate_m_per_s or "
+      "time_lapse, and no end";
+  expect_complaints({
+      {ending("{r: 2}", "type: infall, from_r: 9"), circle},
+      {ending("{r: 2}", "type: infall, from_r: 9, to_r: 2, rate_m_per_s: [3, 3]"), circle},
+      {ending("{r: 9}", "type: circular, r: 9, orbits: 2"), circle},
+      {ending("{r: 5}", "type: static, r: 9, rate_m_per_s: 3"), at + "but its way is never there"},
+      {ending("{r: 9}", "type: infall, from_r: 9, rate_m_per_s: 3"),
+       at + "which happens as the segment begins"},
+      {ending("periastron", "type: infall, from_r: 9, rate_m_per_s: 3"),
+       at + "but its way has no periastron that is known in closed form"},
+      {ending("{r: 2}", "type: infall, from_r: 9, rate_m_per_s: 0"),
+       at + "but the clock of the segment stands still"},
+      {ending("{r: 2}", "type: infall, from_r: 1e9, rate_m_per_s: 1"),
+       at + "which comes after 1.490711985e13 s; at most 10000000 are possible"},
+      {"markers: {it: {r: 2}}\ntimeline: [{duration_s: it}]\n",
+       "2:25: timeline[1].duration_s names the event 'it', which needs a black hole"},
+      {"black_hole: {mass_solar: 4e6}\nmarkers: {it: {r: 5}}\ntimeline:\n"
+       "  - {duration_s: 4, trajectory: {type: infall, from_r: 9, to_r: 4}}\n"
+       "  - {duration_s: it, trajectory: {type: static, r: 4}}\n",
+       "5:18: timeline[2].duration_s names the marker 'it', which lies at 3.330454761 s, where it "
+       "must "
+       "be after 4 s"},
+  });
 }
 
 TEST_F(ShowTimes, MistakesInThemAreTold) {
