@@ -113,6 +113,8 @@ struct Title {
   // motion show it.
   std::optional<SkyDirection> place{};
   SkyFigure figure{};  // is drawn on the sky in the same light
+  // Or it stands below the direct image of this body of the show.
+  std::optional<std::size_t> body{};
   // Otherwise the middle of the text stands here (radians): to the right of the audience's front,
   // and above their horizon or, on a flat image, above the line of sight.
   double azimuth = 0, elevation = 0;

@@ -75,7 +75,7 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
   if (letters.missing > 0)
     warn(fmt::format("has {} letter{} that no font of this machine has, drawn as boxes",
                      letters.missing, letters.missing == 1 ? "" : "s"));
-  if (title.place) return;  // it goes where its place on the sky is seen
+  if (title.place || title.body) return;  // it goes where what it names is seen
   const auto middle = pixel_of(state.projection, surface.direction({0, 0}));
   if (!middle || !is_in_image(state.projection, *middle))
     warn("has its middle outside the picture");

@@ -13,6 +13,7 @@
 #include "pipeline/render/overlay/sky_figure.h"
 #include "pipeline/render/overlay/title_ground.h"
 #include "pipeline/render/rays/key_rounding.h"
+#include "pipeline/render/scene/body_sight.h"
 #include "pipeline/show/title_text.h"
 
 namespace domefall {
@@ -67,10 +68,14 @@ class TitleOnDome {
         ground_(*letters_, seen.title->plate, seen.title->shadow) {
     const Title& title = *seen.title;
     if (title.place) sky_.emplace(state, show.effects);
-    if (!title.place)
+    if (title.body) {
+      if (const auto image = body_image(show, *title.body, state))
+        surface_.emplace(below(*image, title, state));
+    } else if (!title.place) {
       surface_.emplace(state.camera_from_audience, title.azimuth, title.elevation, title.height);
-    else if (sky_->is_seen())
-      surface_.emplace(below(title, state));
+    } else if (sky_->is_seen()) {
+      surface_.emplace(below(sky_->image(*title.place), title, state));
+    }
   }
 
   // The lines of a figure, and the letters.
@@ -85,10 +90,19 @@ class TitleOnDome {
   }
 
  private:
-  // Returns where a text lies that stands clear below the image of its place.
-  TextSurface below(const Title& title, const FrameState& state) const {
+  // Returns where the direct image of a body is seen, or nothing where there is none.
+  static std::optional<CameraDirection> body_image(const Show& show, std::size_t body,
+                                                   const FrameState& state) {
+    const BodySight sight(state, show.effects, show.least_star_radius);
+    const auto image = sight.sees() ? sight.image(show.bodies[body], 0) : std::nullopt;
+    return image ? std::optional(sight.seen(image->at).direction) : std::nullopt;
+  }
+
+  // Returns where a text lies that stands clear below an image.
+  TextSurface below(const CameraDirection& image, const Title& title,
+                    const FrameState& state) const {
     constexpr double kGap = 1;  // from the image to the text, in capitals
-    return TextSurface::at(state.camera_from_audience, sky_->image(*title.place), title.height,
+    return TextSurface::at(state.camera_from_audience, image, title.height,
                            (kGap + letters_->half_height) * title.height);
   }
 
@@ -118,6 +132,8 @@ std::string titles_key(const Show& show, const FrameState& state) {
       digest.add(rounded_for_key(v));
     for (const float v : {title.light.r, title.light.g, title.light.b})
       digest.add(static_cast<double>(v));
+    // Where a body is seen enters the keys of all frames.
+    if (title.body) digest.add("body").add(static_cast<double>(*title.body));
     if (title.place) {
       digest.add("place");
       for (const double v : {title.place->v.x, title.place->v.y, title.place->v.z})

@@ -170,6 +170,7 @@ constexpr std::string_view kRows = R"(
 | `azimuth_deg` | -360 to 360: where its middle is, to the right of the audience's front: 90 is at the right hand, 180 behind | [0] |
 | `elevation_deg` | -90 to 90: above the audience's horizon; on a flat picture above its middle | [30], flat [0] |
 | `place` | a [place on the sky](#places-on-the-sky): the title stands below its image, wherever that is seen | |
+| `body` | the name of one of the show's [bodies](#bodies): the title stands below its direct image and goes with it | |
 | `figure` | a constellation, in Latin or by its abbreviation: its lines are drawn on the sky, and the text stands at their middle or at `place` | |
 | `height_deg` | above 0, at most 60: of a capital letter | [2] |
 | `font` | a family and perhaps a style: `DejaVu Serif Bold Italic` | [`Sans`] |

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <map>
+
 #include "pipeline/show/file/sections.h"
 #include "pipeline/show/file/show_time.h"
 #include "pipeline/show/title_text.h"
@@ -54,19 +56,25 @@ void read_title_times(const Section& s, const TitleSpan& span, const Show& show,
   check_fades(s, title.fades, duration, "the title");
 }
 
-// Reads what a title belongs to on the sky, which says where it stands.
-void read_title_place(const Section& s, Lookup& lookup, Title& title) {
+// Reads what a title belongs to on the sky, or which body, which says where it stands.
+void read_title_place(const Section& s, const Show& show, Lookup& lookup, Title& title) {
+  if (const Item* body = s.find("body")) {
+    for (const char* other : {"place", "figure"}) s.one_of({"body", other});
+    std::map<std::string, std::size_t, std::less<>> bodies;
+    for (std::size_t k = 0; k < show.bodies.size(); ++k) bodies[show.bodies[k].name] = k;
+    if (const auto* found = find_named(*body, bodies, "names a body that the show does not have"))
+      title.body = *found;
+  }
   if (const Item* figure = s.find("figure")) {
     title.figure = lookup.figure(*figure).value_or(SkyFigure());
     // The name of a constellation is that of a place, too: the middle of its figure.
     if (!title.figure.empty() && !s.find("place")) title.place = lookup.place(*figure);
   }
   if (const Item* place = s.find("place")) title.place = read_sky_place(*place, lookup);
-  if (title.place)
+  if (title.place || title.body)
     for (const char* key : {"azimuth_deg", "elevation_deg"})
       if (const Item* fixed = s.find(key))
-        fixed->fail(
-            "is for titles of the dome; this one stands where its place on the sky is seen");
+        fixed->fail("is for titles of the dome; this one stands where what it names is seen");
 }
 
 Title read_title(const Item& item, const TitleSpan& span, const Show& show, Lookup& lookup) {
@@ -74,7 +82,7 @@ Title read_title(const Item& item, const TitleSpan& span, const Show& show, Look
   Title title;
   read_words(s, show, title);
   read_title_times(s, span, show, title);
-  read_title_place(s, lookup, title);
+  read_title_place(s, show, lookup, title);
   title.azimuth = s.angle("azimuth_deg");
   // The audience of a dome looks there without leaning back.
   const bool lies = s.find("elevation_deg") || has_zenith(show.projection);

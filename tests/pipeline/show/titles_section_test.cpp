@@ -52,6 +52,14 @@ TEST_F(TitleMistakes, OfPlacesAndFiguresAreTold) {
       complaint("titles: [{figure: Oryon" + rest)
           .find("1:19: titles[1].figure names 'Oryon', which is no constellation; did you mean"),
       std::string::npos);
+  const std::string bodies = "black_hole: {mass_solar: 1}\nbodies: {star: {r: 9}}\n";
+  EXPECT_NE(complaint(bodies + "titles: [{text: a, body: stra" + rest)
+                .find("titles[1].body names a body that the show does not have: 'stra'; did you "
+                      "mean star?"),
+            std::string::npos);
+  EXPECT_NE(complaint(bodies + "titles: [{text: a, body: star, place: Vega" + rest)
+                .find("titles[1].place excludes body"),
+            std::string::npos);
   EXPECT_NE(complaint("titles: [{text: a, place: Wega" + rest).find("titles[1].place names 'Wega'"),
             std::string::npos);
   EXPECT_NE(complaint("titles: [{text: a, place: Vega, azimuth_deg: 4" + rest)

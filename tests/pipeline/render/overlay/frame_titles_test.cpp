@@ -9,6 +9,7 @@
 
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/overlay/bent_text.h"
+#include "pipeline/render/scene/body_sight.h"
 #include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
@@ -187,6 +188,29 @@ TEST(FrameTitles, FadeEvenlyToTheEyeAndEndWithTheirTime) {
   EXPECT_NEAR(whole.row(row)[at], 2, 1e-3);
   EXPECT_NEAR(whole.row(row)[at + 2], 0.5, 1e-3);
   EXPECT_NEAR(half.row(row)[at], 0.5, 1e-3);
+}
+
+TEST(FrameTitles, GoWithTheDirectImageOfABody) {
+  const double height = 3 * kDegree;
+  Title title = title_of("O", 0, 0, 3);
+  title.body = 0;
+  Show show = titled(title, Domemaster{256});
+  show.timeline[0].trajectory = StaticObserver{40};
+  show.bodies.resize(1);
+  show.bodies[0].magnitude = 30;  // too faint to be drawn itself
+  const double below = (1 + title_letters("O", title.style)->half_height) * height;
+  for (const double azimuth : {0.3, 2.0, 4.0}) {
+    show.bodies[0].azimuth = azimuth;
+    const FrameState state = frame_state(show, 0);
+    const BodySight sight(state, show.effects, show.least_star_radius);
+    const V3d image = sight.seen(sight.image(show.bodies[0], 0)->at).direction.v,
+              middle = middle_of_light(frame_of(show), show.projection).v;
+    EXPECT_NEAR(std::acos(image.dot(middle)), below, 0.1 * height) << azimuth;
+    EXPECT_LT(middle.z, image.z) << "farther from the zenith";
+  }
+  // Without a lens no body is seen, and none is named.
+  show.effects.lensing = false;
+  EXPECT_EQ(integral(frame_of(show), show.projection, [](const CameraDirection&) { return 1; }), 0);
 }
 
 TEST(FrameTitles, HaveThePartOfTheirLightThatAKeyframeLeaves) {
