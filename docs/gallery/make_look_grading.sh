@@ -1,12 +1,10 @@
 #!/usr/bin/env bash
 # Renders the pictures of look_blacks.md and look_grading.md.  Needs oiiotool.
-# Usage, from anywhere: docs/gallery/make_look_grading.sh [domefall] [earlier domefall] [folder]
-# The earlier program, with its own assets, makes the pictures "before"; without one they are kept.
+# Usage, from anywhere: docs/gallery/make_look_grading.sh [domefall] [folder]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 domefall=${1:-build/release/domefall}
-earlier=${2:-}
-out=${3:-out/look}
+out=${2:-out/look}
 mkdir -p "$out"
 
 displays=("Dome G2.2 Rec.709" "Dome G2.4 Rec.709" "sRGB - Display" "Dome G2.6 P3-D65" "Dome G2.6 DCI-P3"
@@ -51,22 +49,14 @@ for v in "${!views[@]}"; do
     -o "docs/gallery/look_view_$name.jpg"
 done
 
-# The default sky without a hole, before and after: whole, and at 100 %.
+# The default sky without a hole: whole, and at 100 %.
 cat >"$out/default_sky.yaml" <<END
 title: default_sky
 size: 1k
 camera: {look_at: {ra_deg: 266.405, dec_deg: -28.936}}
 timeline: [{duration_s: 1}]
 END
-# PROGRAM NAME
-default_sky() {
-  "$1" render "$out/default_sky.yaml" --frames 0 --out "$out/$2"
-  oiiotool "$out/$2/graded/default_sky_00000.png" --ch R,G,B -d uint8 --resize 500x500 \
-    --compression jpeg:84 -o "docs/gallery/look_blacks_$2.jpg"
-  oiiotool "$out/$2/graded/default_sky_00000.png" --ch R,G,B -d uint8 --cut 500x500+260+380 \
-    --compression jpeg:86 -o "docs/gallery/look_blacks_${2}_crop.jpg"
-}
-default_sky "$domefall" after
-if [[ $earlier ]]; then
-  DOMEFALL_ASSETS=${EARLIER_ASSETS:-} default_sky "$earlier" before
-fi
+"$domefall" render "$out/default_sky.yaml" --frames 0 --out "$out/default_sky"
+sky="$out/default_sky/graded/default_sky_00000.png"
+oiiotool "$sky" --ch R,G,B -d uint8 --resize 500x500 --compression jpeg:84 -o docs/gallery/look_blacks.jpg
+oiiotool "$sky" --ch R,G,B -d uint8 --cut 500x500+260+380 --compression jpeg:86 -o docs/gallery/look_blacks_crop.jpg
