@@ -153,13 +153,14 @@ const std::vector<std::string> kColours{"R", "G", "B"};
 
 template <class T>
 std::vector<ExrChannel> channels_of(const ImageRgb<T>& picture) {
-  return interleaved(kColours, picture.pixels.data());
+  return interleaved(kColours, picture.pixels.empty() ? nullptr : picture.pixels.data());
 }
 
 template <class T>
 std::vector<ExrChannel> channels_of(const LayerImage<T>& layer) {
   std::vector<ExrChannel> channels = channels_of(layer.light);
-  if (!layer.alpha.empty()) channels.push_back({"A", layer.alpha.data()});
+  const float* const alpha = layer.alpha.empty() ? nullptr : layer.alpha.data();
+  if (kind_of(layer.layer).has_alpha) channels.push_back({"A", alpha});
   return channels;
 }
 

@@ -32,13 +32,26 @@ static_assert(kLayers.size() == static_cast<std::size_t>(Layer::kTitles) + 1);
 
 inline const LayerKind& kind_of(Layer layer) { return kLayers[static_cast<std::size_t>(layer)]; }
 
+// What is 0 everywhere takes no memory: a light in which nothing is drawn has a size but no pixels,
+// and an alpha that hides nothing is empty.
 template <class T>
 struct LayerImage {
   Layer layer;
   ImageRgb<T> light{};
-  // [height][width], or empty without one.  It is in full precision, since what is left behind it
-  // may be bright.
+  // [height][width].  It is in full precision, since what is left behind it may be bright.
   std::vector<float> alpha{};
+
+  // Lets light be drawn, on black where nothing is drawn yet, and lets it hide what is behind it.
+  void add_pixels(bool hides) {
+    const auto pixels =
+        static_cast<std::size_t>(light.width) * static_cast<std::size_t>(light.height);
+    light.pixels.resize(3 * pixels);
+    if (hides) alpha.resize(pixels);
+  }
+  void remove_pixels() {
+    light.pixels.clear();
+    alpha.clear();
+  }
 };
 
 // A Matte says how much of each pixel belongs to what it is named after.
@@ -69,7 +82,7 @@ struct LayeredFrame {
     return other;
   }
 
-  // Gives all of them one size.  Memory of that size is kept as it is.
+  // Gives all of them one size.  Memory of that size is kept as it is, and layers have none yet.
   void set_size(int width, int height) {
     const auto resize = [&](ImageRgb<T>& image) {
       if (image.width != width || image.height != height) image = ImageRgb<T>(width, height);
@@ -79,8 +92,9 @@ struct LayeredFrame {
     if (!layers.empty() || !mattes.empty()) alpha.resize(pixels);
     for (Matte& matte : mattes) matte.covered.resize(pixels);
     for (LayerImage<T>& image : layers) {
-      resize(image.light);
-      if (kind_of(image.layer).has_alpha) image.alpha.resize(pixels);
+      if (image.light.width != width || image.light.height != height) image.remove_pixels();
+      image.light.width = width;
+      image.light.height = height;
     }
   }
 
@@ -92,7 +106,7 @@ struct LayeredFrame {
   }
 
   // Return the values of the picture and of each layer's light, and those of each layer's alpha and
-  // of the mattes, always in one order.
+  // of the mattes, always in one order.  Those of a layer are empty where all are 0.
   std::vector<std::vector<T>*> lights() {
     std::vector<std::vector<T>*> planes{&picture.pixels};
     for (LayerImage<T>& image : layers) planes.push_back(&image.light.pixels);
@@ -100,8 +114,7 @@ struct LayeredFrame {
   }
   std::vector<std::vector<float>*> alphas() {
     std::vector<std::vector<float>*> planes;
-    for (LayerImage<T>& image : layers)
-      if (!image.alpha.empty()) planes.push_back(&image.alpha);
+    for (LayerImage<T>& image : layers) planes.push_back(&image.alpha);
     for (Matte& matte : mattes) planes.push_back(&matte.covered);
     return planes;
   }

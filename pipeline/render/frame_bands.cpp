@@ -81,7 +81,7 @@ class BandLayers {
   // Gives a layer the light that has come to the picture since the last call.
   void take(Layer layer, const float* rgb) {
     std::vector<float>& before = rows_.before;
-    if (frame_.find(layer)) {
+    if (is_drawn(layer)) {
       std::vector<float>& light = light_of(layer);
       light.resize(before.size());
       for (std::size_t k = 0; k < before.size(); ++k) light[k] = rgb[k] - before[k];
@@ -94,10 +94,13 @@ class BandLayers {
     std::vector<float>& moved = rows_.moved;
     moved.assign(kBandRows * 3 * static_cast<std::size_t>(frame_.picture.width), 0);
     blobs.draw_band(first_ / kBandRows, splats, moved.data());
-    for (std::size_t k = 0; k < rows_.before.size(); ++k) {
-      if (frame_.find(from)) light_of(from)[k] -= moved[k];
-      if (frame_.find(to)) light_of(to)[k] += moved[k];
-    }
+    const auto add = [&](Layer layer, float sign) {
+      if (!is_drawn(layer)) return;
+      std::vector<float>& light = light_of(layer);
+      for (std::size_t k = 0; k < light.size(); ++k) light[k] += sign * moved[k];
+    };
+    add(from, -1);
+    add(to, 1);
   }
 
   // Returns where a disc says how much of the light behind it is left.
@@ -120,6 +123,7 @@ class BandLayers {
     const auto width = static_cast<std::size_t>(frame_.picture.width);
     const std::size_t at = static_cast<std::size_t>(row - first_) * width;
     for (LayerImage<T>& image : frame_.layers) {
+      if (!is_drawn(image.layer)) continue;
       if (is_taken(image.layer))
         store_row(light_of(image.layer).data() + 3 * at, row, inside, image.light);
       else
@@ -134,6 +138,10 @@ class BandLayers {
   }
 
  private:
+  bool is_drawn(Layer layer) {
+    const LayerImage<T>* image = frame_.find(layer);
+    return image && !image->light.pixels.empty();
+  }
   bool is_taken(Layer layer) const { return rows_.taken[static_cast<std::size_t>(layer)]; }
   std::vector<float>& light_of(Layer layer) {
     rows_.taken[static_cast<std::size_t>(layer)] = true;
@@ -225,6 +233,32 @@ class StarsEnd {
   std::vector<Block> blocks_;
 };
 
+// Gives pixels to the layers in which something may be drawn, and to no others.
+template <class T>
+void prepare_layers(bool lit, const DrawnLight& drawn, LayeredFrame<T>& frame) {
+  const auto is_drawn = [&](Layer layer) {
+    switch (layer) {
+      case Layer::kSky:
+        return lit || drawn.crowded_skies;
+      case Layer::kStars:
+        return drawn.stars->size() > 0;
+      case Layer::kDisc:
+        return drawn.disc != nullptr;
+      case Layer::kBodies:
+        return drawn.bodies != nullptr;
+      case Layer::kTitles:
+        break;
+    }
+    return false;
+  };
+  for (LayerImage<T>& image : frame.layers) {
+    if (is_drawn(image.layer))
+      image.add_pixels(image.layer == Layer::kDisc);
+    else
+      image.remove_pixels();
+  }
+}
+
 }  // namespace
 
 template <class T>
@@ -235,6 +269,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
   const auto stride = static_cast<std::size_t>(width) * 3;
   const bool lit = scene.plan.has_background();
   const BlobLayer& stars = *drawn.stars;
+  prepare_layers(lit, drawn, frame);
   // Outside this box every pixel sees a sky.
   const std::optional<PixelBox> box =
       drawn.borders ? drawn.borders->box_without_sky() : std::nullopt;
@@ -250,7 +285,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
       std::fill(rgb.begin(), rgb.end(), 0.0f);
     std::optional<BandLayers<T>> layers;
     if (!frame.layers.empty()) layers.emplace(frame, memory.layers.local(), first, end);
-    if (layers && lit) layers->take(Layer::kSky, rgb.data());
+    if (layers) layers->take(Layer::kSky, rgb.data());
     // The order matters: stars end before the disc and the bodies, which are nearer, are drawn.
     const bool bordered = box && first <= box->last_row && end > box->first_row;
     std::optional<StarsEnd> stars_end;

@@ -62,9 +62,13 @@ void dissolve(LayeredFrame<T>& frame, LayeredFrame<T>& vanishing, double part) {
   const auto of_other = static_cast<float>(part), of_own = 1 - of_other;
   // Light is mixed and not brightness, as two projectors on one screen would mix it.
   const auto mix = [&](const auto& planes, const auto& others) {
-    for (std::size_t p = 0; p < planes.size(); ++p)
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+      // A layer may be empty in one of the views.
+      planes[p]->resize(std::max(planes[p]->size(), others[p]->size()));
+      others[p]->resize(planes[p]->size());
       std::transform(planes[p]->begin(), planes[p]->end(), others[p]->begin(), planes[p]->begin(),
                      [&](float own, float other) { return of_own * own + of_other * other; });
+    }
   };
   mix(frame.lights(), vanishing.lights());
   mix(frame.alphas(), vanishing.alphas());
@@ -82,16 +86,24 @@ void fill_alpha(const ColumnRange& inside, int row, LayeredFrame<T>& frame) {
 template <class T>
 void put(const LayeredFrame<T>& image, const CubemapFace& face, LayeredFrame<T>& frame) {
   const auto copy = [&](const auto& from, int channels, auto& to) {
+    // A layer may be empty on one face and not on another.
+    if (from.empty() && to.empty()) return;
     const std::ptrdiff_t width = std::ptrdiff_t{channels} * image.picture.width,
                          stride = std::ptrdiff_t{channels} * frame.picture.width;
-    for (int row = 0; row < image.picture.height; ++row)
-      std::copy_n(from.begin() + row * width, width,
-                  to.begin() + (face.row + row) * stride + std::ptrdiff_t{channels} * face.column);
+    to.resize(static_cast<std::size_t>(stride * frame.picture.height));
+    for (int row = 0; row < image.picture.height; ++row) {
+      const auto at =
+          to.begin() + (face.row + row) * stride + std::ptrdiff_t{channels} * face.column;
+      if (from.empty())
+        std::fill_n(at, width, 0.0f);
+      else
+        std::copy_n(from.begin() + row * width, width, at);
+    }
   };
   copy(image.picture.pixels, 3, frame.picture.pixels);
   for (std::size_t k = 0; k < frame.layers.size(); ++k) {
     copy(image.layers[k].light.pixels, 3, frame.layers[k].light.pixels);
-    if (!frame.layers[k].alpha.empty()) copy(image.layers[k].alpha, 1, frame.layers[k].alpha);
+    copy(image.layers[k].alpha, 1, frame.layers[k].alpha);
   }
   for (std::size_t k = 0; k < frame.mattes.size(); ++k)
     copy(image.mattes[k].covered, 1, frame.mattes[k].covered);

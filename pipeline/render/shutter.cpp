@@ -112,9 +112,11 @@ template <class T>
 void MeanFrame::add(LayeredFrame<T>& instant) {
   std::size_t plane = 0;
   const auto add_plane = [&](const auto& values) {
-    if (count_ == 0) sums_.emplace_back(values.size());
+    if (count_ == 0) sums_.emplace_back();
     std::vector<float>& sum = sums_[plane++];
-    each_piece(sum.size(), [&](std::size_t first, std::size_t end) {
+    // A layer may be empty in this instant and not in another.
+    sum.resize(std::max(sum.size(), values.size()));
+    each_piece(values.size(), [&](std::size_t first, std::size_t end) {
       for (std::size_t k = first; k < end; ++k) sum[k] += values[k];
     });
   };
@@ -129,6 +131,7 @@ void MeanFrame::store(LayeredFrame<T>& frame) const {
   std::size_t plane = 0;
   const auto store_plane = [&](auto& values) {
     const std::vector<float>& sum = sums_[plane++];
+    values.resize(sum.size());
     each_piece(sum.size(), [&](std::size_t first, std::size_t end) {
       store_mean(sum.data() + first, share, end - first, values.data() + first);
     });

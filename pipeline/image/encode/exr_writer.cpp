@@ -118,11 +118,13 @@ ExrInTheMaking begin_exr(ByteSink& sink, const ExrPicture& picture) {
 // Takes the words of 16 bits of a channel's row, the lower of a number first.
 std::uint16_t* append_words(const Imath::half* number, std::ptrdiff_t step, int count,
                             std::uint16_t* out) {
+  if (!number) return std::fill_n(out, count, std::uint16_t{0});
   for (int x = 0; x < count; ++x) out[x] = number[x * step].bits();
   return out + count;
 }
 std::uint16_t* append_words(const float* number, std::ptrdiff_t step, int count,
                             std::uint16_t* out) {
+  if (!number) return std::fill_n(out, 2 * static_cast<std::ptrdiff_t>(count), std::uint16_t{0});
   for (int x = 0; x < count; ++x) {
     const auto bits = std::bit_cast<std::uint32_t>(number[x * step]);
     out[2 * x] = static_cast<std::uint16_t>(bits);
@@ -131,42 +133,44 @@ std::uint16_t* append_words(const float* number, std::ptrdiff_t step, int count,
   return out + 2 * static_cast<std::ptrdiff_t>(count);
 }
 
-// Returns the words of some rows as a file has them, which is row by row and in each the channels one
-// after the other, in the order of their names.
-void take_words(const ExrPicture& picture, int first_row, int height,
-                std::vector<std::uint16_t>& words) {
+// Returns the number of words of a row of all channels.
+std::size_t words_in_row(const ExrPicture& picture) {
   std::size_t in_pixel = 0;
   for (const ExrChannel& channel : picture.channels)
     in_pixel += std::holds_alternative<const float*>(channel.numbers) ? 2 : 1;
-  words.resize(in_pixel * static_cast<std::size_t>(picture.width) *
-               static_cast<std::size_t>(height));
-  std::uint16_t* out = words.data();
-  for (int row = first_row; row < first_row + height; ++row)
-    for (const ExrChannel& channel : picture.channels)
-      std::visit(
-          [&](const auto* numbers) {
-            out = append_words(numbers + channel.step * picture.width * std::ptrdiff_t{row},
-                               channel.step, picture.width, out);
-          },
-          channel.numbers);
+  return in_pixel * static_cast<std::size_t>(picture.width);
 }
 
-// All low bytes come first and then all high ones, each less the one before it, plus 128.  Before the
-// first low byte there is none, and before the first high byte there is the last low byte.
-void take_differences(const std::vector<std::uint16_t>& words, unsigned char* out) {
-  const auto byte = [](int value) { return static_cast<unsigned char>(value); };
-  const std::size_t count = words.size();
+// Takes the words of a row as a file has them, which is the channels one after the other, in the
+// order of their names.
+void take_words(const ExrPicture& picture, int row, std::uint16_t* out) {
+  for (const ExrChannel& channel : picture.channels)
+    std::visit(
+        [&](const auto* numbers) {
+          const std::ptrdiff_t first = numbers ? channel.step * picture.width * row : 0;
+          out = append_words(numbers + first, channel.step, picture.width, out);
+        },
+        channel.numbers);
+}
+
+// A byte is stored less the one before it, plus this.
+constexpr int kMiddle = 128;
+unsigned char difference(int byte, int before) {
+  return static_cast<unsigned char>(byte - before + kMiddle);
+}
+
+// Takes the differences of the low bytes and of the high bytes of `count` words, from the one that
+// stands before the words.
+void take_differences(const std::uint16_t* words, std::size_t count, unsigned char* low_bytes,
+                      unsigned char* high_bytes) {
   // Nothing overlaps, which a compiler must know to take many at a time.
-  const std::uint16_t* __restrict const word = words.data();
-  unsigned char* __restrict const low = out;
-  unsigned char* __restrict const high = out + count;
-  constexpr int kMiddle = 128;
-  for (std::size_t k = 1; k < count; ++k) {
-    low[k] = byte(word[k] - word[k - 1] + kMiddle);
-    high[k] = byte((word[k] >> 8) - (word[k - 1] >> 8) + kMiddle);
+  const std::uint16_t* __restrict const word = words;
+  unsigned char* __restrict const low = low_bytes;
+  unsigned char* __restrict const high = high_bytes;
+  for (std::size_t k = 0; k < count; ++k) {
+    low[k] = difference(word[k], word[k - 1]);
+    high[k] = difference(word[k] >> 8, word[k - 1] >> 8);
   }
-  low[0] = byte(words[0]);
-  high[0] = byte((words[0] >> 8) - words[count - 1] + kMiddle);
 }
 
 // This is the ZIP compression of OpenEXR, packed by ISA-L.
@@ -175,19 +179,43 @@ class ExrZip {
   // Packs some rows.  They are a zlib stream of the bytes' differences ("OpenEXR File Layout"), or
   // the bytes as they are where that would be no smaller.  The bytes are there until the next rows.
   std::string_view pack(const ExrPicture& picture, int first_row, int height) {
-    take_words(picture, first_row, height, words_);
-    const std::string_view as_they_are(reinterpret_cast<const char*>(words_.data()),
-                                       2 * words_.size());
-    bytes_.reserve(as_they_are.size());
-    bytes_.set_size(as_they_are.size());
-    take_differences(words_, bytes_.data());
+    const std::size_t in_row = words_in_row(picture);
+    bytes_.reserve(2 * in_row * static_cast<std::size_t>(height));
+    bytes_.set_size(2 * in_row * static_cast<std::size_t>(height));
+    // The words of one row and the word before it.
+    row_.resize(in_row + 1);
+    take_all_differences(picture, first_row, height);
     deflater_.pack_stream(bytes_.view(), packed_);
-    return packed_.size() < as_they_are.size() ? packed_.view() : as_they_are;
+    if (packed_.size() < bytes_.size()) return packed_.view();
+    for (int row = 0; row < height; ++row) {
+      take_words(picture, first_row + row, row_.data());
+      std::memcpy(bytes_.data() + 2 * in_row * static_cast<std::size_t>(row), row_.data(),
+                  2 * in_row);
+    }
+    return bytes_.view();
   }
 
  private:
+  // All low bytes come first and then all high ones.  Before the first low byte there is none, and
+  // before the first high byte there is the last low byte.  Only one row of words is there at a
+  // time, since those of all channels and rows would not stay in the cache.
+  void take_all_differences(const ExrPicture& picture, int first_row, int height) {
+    const std::size_t in_row = row_.size() - 1;
+    unsigned char *low = bytes_.data(), *high = low + bytes_.size() / 2;
+    unsigned char* const first_high = high;
+    int first_word = 0;
+    row_[0] = kMiddle;  // leaves the first byte as it is
+    for (int row = 0; row < height; ++row, low += in_row, high += in_row) {
+      take_words(picture, first_row + row, row_.data() + 1);
+      if (row == 0) first_word = row_[1];
+      take_differences(row_.data() + 1, in_row, low, high);
+      row_[0] = row_[in_row];
+    }
+    *first_high = difference(first_word >> 8, row_[0]);
+  }
+
   Deflater deflater_;
-  std::vector<std::uint16_t> words_;
+  std::vector<std::uint16_t> row_;
   ByteBlock bytes_, packed_;
 };
 
@@ -218,17 +246,21 @@ class BlockEncoder {
     require(begun_ ? exr_encoding_update(file, 0, &block, &pipeline_)
                    : exr_encoding_initialize(file, 0, &block, &pipeline_));
     begun_ = true;
+    black_.resize(sizeof(float) * static_cast<std::size_t>(picture.width) *
+                  static_cast<std::size_t>(block.height));
     for (std::size_t c = 0; c < picture.channels.size(); ++c) {
       exr_coding_channel_info_t& to = pipeline_.channels[c];
       const ExrChannel& from = picture.channels[c];
       std::visit(
           [&](const auto* numbers) {
-            const std::ptrdiff_t row = from.step * picture.width;
-            to.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(numbers + row * first_row);
+            const std::ptrdiff_t step = numbers ? from.step : 1;
+            const std::ptrdiff_t first = step * picture.width * first_row;
+            to.encode_from_ptr =
+                numbers ? reinterpret_cast<const std::uint8_t*>(numbers + first) : black_.data();
             to.user_bytes_per_element = sizeof *numbers;
             to.user_data_type = static_cast<std::uint16_t>(type_of(numbers));
             to.user_pixel_stride =
-                static_cast<std::int32_t>(from.step * static_cast<int>(sizeof *numbers));
+                static_cast<std::int32_t>(step * static_cast<int>(sizeof *numbers));
             to.user_line_stride = to.user_pixel_stride * picture.width;
           },
           from.numbers);
@@ -243,6 +275,7 @@ class BlockEncoder {
   ExrZip zip_;
   exr_encode_pipeline_t pipeline_{};
   bool begun_ = false;
+  std::vector<std::uint8_t> black_;  // what a channel without numbers has
   std::string_view bytes_;
 };
 

@@ -47,20 +47,22 @@ struct ExrMatrix {
 using ExrValue =
     std::variant<std::string, int, double, ExrChromaticities, ExrRational, ExrTimeCode, ExrMatrix>;
 
-// A channel has one number for each pixel, row after row from the top.
+// A channel has one number for each pixel, row after row from the top, or null where all are 0.
 struct ExrChannel {
   std::string name;
   std::variant<const Imath::half*, const float*> numbers{};
   std::ptrdiff_t step = 1;  // from one number to the next
 };
 
-// Returns the channels of a picture whose pixels hold the numbers of all channels side by side.
+// Returns the channels of a picture whose pixels hold the numbers of all channels side by side, or
+// are null.
 template <class T>
 std::vector<ExrChannel> interleaved(const std::vector<std::string>& names, const T* pixels) {
   std::vector<ExrChannel> channels;
   channels.reserve(names.size());
   for (const std::string& name : names)
-    channels.push_back({name, pixels++, static_cast<std::ptrdiff_t>(names.size())});
+    channels.push_back(
+        {name, pixels ? pixels++ : nullptr, static_cast<std::ptrdiff_t>(names.size())});
   return channels;
 }
 

@@ -75,6 +75,7 @@ template <class T>
 void draw_row(const InkedRow& inked, const WorkingRgb& ink, const OverlaidImages<T>& images) {
   draw_light(inked, ink, *images.picture);
   if (!images.titles) return;
+  images.titles->add_pixels(true);
   draw_light(inked, ink, images.titles->light);
   float* const alpha =
       images.titles->alpha.data() + static_cast<std::ptrdiff_t>(inked.row) * images.picture->width;

@@ -10,7 +10,11 @@
 namespace domefall {
 namespace {
 
-double value_of(const ImageRgb<float>& image, std::size_t k) { return image.pixels[k]; }
+// What is 0 everywhere has no pixels.
+double value_of(const std::vector<float>& values, std::size_t k) {
+  return values.empty() ? 0 : values[k];
+}
+double value_of(const ImageRgb<float>& image, std::size_t k) { return value_of(image.pixels, k); }
 
 // The picture that the layers make, by the formula that layer.h states.
 double composed(LayeredFloatFrame& frame, std::size_t k) {
@@ -18,7 +22,7 @@ double composed(LayeredFloatFrame& frame, std::size_t k) {
   for (const Layer layer : {Layer::kSky, Layer::kStars, Layer::kDisc, Layer::kBodies})
     behind += value_of(frame.find(layer)->light, k);
   const LayerImage<float>& titles = *frame.find(Layer::kTitles);
-  return titles.light.pixels[k] + (1 - titles.alpha[k / 3]) * behind;
+  return value_of(titles.light, k) + (1 - value_of(titles.alpha, k / 3)) * behind;
 }
 
 template <class T>

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "pipeline/base/new_file.h"
+#include "pipeline/base/regular_file.h"
 #include "pipeline/base/side_by_side.h"
 #include "pipeline/image/frame_buffer.h"
 #include "tests/pipeline/image/test_folder.h"
@@ -74,6 +75,27 @@ TEST_F(ExrWriter, GivesBackEveryBitInEveryCompression) {
         EXPECT_EQ(in->spec().get_string_attribute("compression"), compression.name);
         EXPECT_EQ(in->spec().get_string_attribute("digest"), "0123");
       }
+}
+
+// Numbers that are not there are zeros, byte for byte, whatever stands beside them.
+TEST_F(ExrWriter, TakesChannelsWithoutNumbersForZeros) {
+  constexpr int kWidth = 37, kHeight = 67;
+  const HalfFrame frame = smooth(kWidth, kHeight), black(kWidth, kHeight);
+  const std::vector<float> clear(std::size_t{kWidth} * kHeight);
+  const auto bytes = [&](const Imath::half* numbers, const float* alpha, ExrCompression how) {
+    ExrPicture picture{kWidth, kHeight, interleaved({"R", "G", "B"}, frame.pixels.data()), how};
+    for (const ExrChannel& channel : interleaved({"D.R", "D.G", "D.B"}, numbers))
+      picture.channels.push_back(channel);
+    picture.channels.push_back({"A", alpha});
+    NewFile file(folder_ / "f.exr");
+    write_exr(file, picture);
+    file.commit();
+    return read_file(folder_ / "f.exr", std::uint64_t{1} << 30);
+  };
+  for (const Compression& compression : kCompressions)
+    EXPECT_EQ(bytes(nullptr, nullptr, compression.ours),
+              bytes(black.pixels.data(), clear.data(), compression.ours))
+        << compression.name;
 }
 
 TEST_F(ExrWriter, GivesBackEveryBitOfFloats) {
