@@ -179,6 +179,8 @@ def main():
     first, count = states[0]['frame'], len(states)
     frames = compositor.pictures(given.frames, first, count)
     scene.render.resolution_x, scene.render.resolution_y = states[0]['width'], states[0]['height']
+    aspect = states[0]['pixel_aspect']
+    scene.render.pixel_aspect_x, scene.render.pixel_aspect_y = max(aspect, 1), max(1 / aspect, 1)
     scene.render.resolution_percentage = 100
     picture = composite(compositor, frames)
     if given.lens:

@@ -21,9 +21,10 @@ struct Fisheye {
           "equidistant azimuthal fisheye of {} degrees. The circle touches\n"
           "the left and right edges; what is beside it is black.",
       .orientation = kDomeOrientation};
-  int columns = 4096, rows = 4096;  // pixels, > 0, rows <= columns
+  int columns = 4096, rows = 4096;  // pixels, > 0, rows <= columns * pixel_aspect
   double fov = 1;                   // opening angle of the circle, radians, in (0, 2 pi]
   double cut_back = 0.5;  // the part, 0 to 1, of the missing rows that is cut at the top, the back
+  double pixel_aspect = 1;
 
   double scale() const { return fov / columns; }
   double largest_pixel_angle() const { return scale(); }

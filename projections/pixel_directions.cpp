@@ -8,8 +8,11 @@ namespace {
 // Positions are places of an image.
 struct Positions {
   PixelPosition origin;
+  double high;  // of a pixel, in widths
   const double *i, *j;
   int count;
+
+  Centred at(int k) const { return {i[k] - origin.i, (j[k] - origin.j) * high}; }
 };
 
 template <class View>
@@ -19,9 +22,9 @@ template <class View>
   const View v = view;
   const Positions p = positions;
   for (int k = 0; k < p.count; ++k) {
-    const double x = p.i[k] - p.origin.i, y = p.j[k] - p.origin.j;
-    n[k] = v.direction(x, y);
-    angle[k] = v.pixel_angle(x, y);
+    const Centred at = p.at(k);
+    n[k] = v.direction(at.x, at.y);
+    angle[k] = v.pixel_angle(at.x, at.y);
   }
 }
 template <class View>
@@ -33,8 +36,10 @@ template <class View>
                                                    float* __restrict area) {
   const View v = view;
   const Positions p = positions;
-  for (int k = 0; k < p.count; ++k)
-    area[k] = static_cast<float>(v.area(n[k], p.i[k] - p.origin.i, p.j[k] - p.origin.j));
+  for (int k = 0; k < p.count; ++k) {
+    const Centred at = p.at(k);
+    area[k] = static_cast<float>(v.area(n[k], at.x, at.y));
+  }
 }
 template <class View>
 constexpr Dispatched<find_areas_loop<View>> kFindAreas;
@@ -46,8 +51,12 @@ void find_directions(const Projection& projection, const double* i, const double
   std::visit(
       [&](const auto& p) {
         if constexpr (requires { p.view(); }) {
-          const Positions at{origin_of(projection), i, j, count};
+          const double aspect = pixel_aspect(projection);
+          const Positions at{origin_of(projection), 1 / aspect, i, j, count};
           kFindDirections<decltype(p.view())>(p.view(), at, n, angle);
+          // A view knows the angle of a square pixel alone.
+          for (int k = 0; aspect != 1 && k < count; ++k)
+            angle[k] = domefall::pixel_angle(projection, {i[k], j[k]});
         } else {
           for (int k = 0; k < count; ++k) {
             n[k] = direction_at(projection, {i[k], j[k]});
@@ -63,7 +72,7 @@ void find_areas(const Projection& projection, const CameraDirection* n, const do
   std::visit(
       [&](const auto& p) {
         if constexpr (requires { p.view(); }) {
-          const Positions at{origin_of(projection), i, j, count};
+          const Positions at{origin_of(projection), 1 / pixel_aspect(projection), i, j, count};
           kFindAreas<decltype(p.view())>(p.view(), at, n, area);
         } else {
           // In squares of the largest pixel's angle, since a solid angle may be too small for a

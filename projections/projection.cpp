@@ -27,7 +27,8 @@ Projection with_sides(Projection p, int columns, int rows) {
           return q.with_sides(columns, rows);
         else {
           q.columns = columns;
-          q.rows = P::kTraits.is_dome ? std::min(rows, columns) : rows;
+          q.rows =
+              P::kTraits.is_dome ? std::min(rows, most_rows(columns, pixel_aspect_of(q))) : rows;
           return q;
         }
       },
@@ -75,6 +76,62 @@ Projection with_cut_back(Projection p, double part) {
   return p;
 }
 
+double pixel_aspect(const Projection& p) {
+  return std::visit([](const auto& q) { return pixel_aspect_of(q); }, p);
+}
+
+bool may_have_pixel_aspect(const Projection& p) {
+  return std::visit([]<class P>(const P&) { return kHasPixelAspect<P>; }, p);
+}
+
+Projection with_pixel_aspect(Projection p, double aspect) {
+  std::visit(
+      [aspect](auto& q) {
+        if constexpr (requires { q.pixel_aspect; }) q.pixel_aspect = aspect;
+      },
+      p);
+  return p;
+}
+
+Projection with_square_pixels(const Projection& p) {
+  const double aspect = pixel_aspect(p);
+  if (aspect == 1) return p;
+  const double high = std::max(1.0, std::round(rows(p) / aspect));
+  return with_sides(with_pixel_aspect(p, 1), columns(p), static_cast<int>(high));
+}
+
+int most_rows(int columns, double pixel_aspect) {
+  // Of a product that is whole, rounding may leave a little less.
+  return std::max(1, static_cast<int>(columns * pixel_aspect + 1e-6));
+}
+
+ScreenSides screen_sides(const Projection& p) {
+  const double aspect = pixel_aspect(p);
+  return {std::min(aspect, 1.0), 1 / std::max(aspect, 1.0)};
+}
+
+double shorter_side(const Projection& p) {
+  const ScreenSides side = screen_sides(p);
+  return std::min(columns(p) * side.x, rows(p) * side.y);
+}
+
+bool keeps_circles(const Projection& p) {
+  return traits_of(p).keeps_circles && pixel_aspect(p) == 1;
+}
+
+PixelParts parts_nearly_square(const Projection& p) {
+  const double aspect = pixel_aspect(p);
+  const auto parts = [](double ratio) {
+    return std::max(1, static_cast<int>(std::ceil(ratio / std::numbers::sqrt2)));
+  };
+  return {parts(aspect), parts(1 / aspect)};
+}
+
+Projection divided(const Projection& p, const PixelParts& parts) {
+  const Projection finer = with_pixel_aspect(p, pixel_aspect(p) * parts.down / parts.across);
+  return with_sides(finer, columns(p) * parts.across, rows(p) * parts.down);
+}
+
 std::vector<double> further_parameters(const Projection& p) {
   std::vector<double> parameters;
   std::visit([&](const auto& q) { add_parameters(q, parameters); }, p);
@@ -99,8 +156,7 @@ std::optional<PixelPosition> pixel_of(const Projection& p, CameraDirection n) {
   return std::visit(
       [&](const auto& q) -> std::optional<PixelPosition> {
         const std::optional<Centred> at = q.place(n);
-        const PixelPosition o = origin_of(q);
-        return at ? std::optional(PixelPosition{o.i + at->x, o.j + at->y}) : std::nullopt;
+        return at ? std::optional(uncentred(q, *at)) : std::nullopt;
       },
       p);
 }
@@ -122,7 +178,7 @@ PixelMetric pixel_metric(const Projection& p, PixelPosition pixel) {
 }
 
 double largest_pixel_angle(const Projection& p) {
-  return std::visit([](const auto& q) { return q.largest_pixel_angle(); }, p);
+  return std::visit([](const auto& q) { return largest_pixel_angle_of(q); }, p);
 }
 
 double pixel_angle(const Projection& p, PixelPosition pixel) {

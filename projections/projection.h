@@ -74,6 +74,38 @@ Projection with_field_of_view(Projection p, double fov);
 std::optional<double> cut_back(const Projection& p);
 Projection with_cut_back(Projection p, double part);
 
+// These return the width of a pixel over its height, which is 1 for all projections that are not
+// free in it, and the projection with another aspect and as many pixels.
+double pixel_aspect(const Projection& p);
+bool may_have_pixel_aspect(const Projection& p);
+Projection with_pixel_aspect(Projection p, double aspect);
+
+// Returns the image as a screen of square pixels shows it, with as many columns.
+Projection with_square_pixels(const Projection& p);
+
+// Returns how many rows the circle of a fisheye has that is as wide as so many columns.
+int most_rows(int columns, double pixel_aspect);
+
+// ScreenSides are the sides of a pixel on the screen in units of the longer, so that the larger is 1.
+// Places times these are in the proportions in which they are seen.
+struct ScreenSides {
+  double x, y;
+};
+ScreenSides screen_sides(const Projection& p);
+// Returns the shorter side of the image on the screen, in that unit.
+double shorter_side(const Projection& p);
+
+// Says whether a circle on the sphere is a circle in pixels.
+bool keeps_circles(const Projection& p);
+
+// PixelParts divide each pixel into parts whose sides are as 1 to at most the root of 2.
+struct PixelParts {
+  int across, down;
+};
+PixelParts parts_nearly_square(const Projection& p);
+// Returns the same image with a pixel for each part.
+Projection divided(const Projection& p, const PixelParts& parts);
+
 // Returns the numbers that define an image besides its projection's name, columns and rows.
 std::vector<double> further_parameters(const Projection& p);
 

@@ -23,6 +23,20 @@ constexpr bool kCanBeCut = requires(P p) {
 };
 
 template <class P>
+constexpr bool kHasPixelAspect = requires(P p) {
+  p.pixel_aspect;
+};
+
+// Returns the width of a pixel over its height.
+template <class P>
+double pixel_aspect_of(const P& p) {
+  if constexpr (kHasPixelAspect<P>)
+    return p.pixel_aspect;
+  else
+    return 1;
+}
+
+template <class P>
 int width_of(const P& p) {
   if constexpr (kHasSides<P>)
     return p.columns;
@@ -42,17 +56,30 @@ template <class P>
 PixelPosition origin_of(const P& p) {
   PixelPosition origin{(width_of(p) + 1) / 2.0, (height_of(p) + 1) / 2.0};
   // It lies below the middle by half of what more is cut at the bottom than at the top.
-  if constexpr (kCanBeCut<P>) origin.j += (p.columns - p.rows) * (0.5 - p.cut_back);
+  if constexpr (kCanBeCut<P>)
+    origin.j += (p.columns * pixel_aspect_of(p) - p.rows) * (0.5 - p.cut_back);
   return origin;
 }
 
 template <class P>
 Centred centred(const P& p, PixelPosition pixel) {
   const PixelPosition o = origin_of(p);
-  return {pixel.i - o.i, pixel.j - o.j};
+  return {pixel.i - o.i, (pixel.j - o.j) * (1 / pixel_aspect_of(p))};
+}
+template <class P>
+PixelPosition uncentred(const P& p, Centred at) {
+  const PixelPosition o = origin_of(p);
+  return {o.i + at.x, o.j + at.y * pixel_aspect_of(p)};
 }
 
-// Of two differences over an eighth of a pixel, as the metric by default.  The relative error is
+// Brings a metric by widths of a pixel to one by pixels, which are so many widths high.
+template <class P>
+PixelMetric by_pixels(const P& p, const PixelMetric& m) {
+  const double high = 1 / pixel_aspect_of(p);
+  return {m.xx, m.xy * high, m.yy * high * high};
+}
+
+// Of two differences over an eighth of a width, as the metric by default.  The relative error is
 // below the square of a pixel's angle (radians) and 1e-15 of that angle's inverse.
 template <class P>
 PixelMetric metric_by_differences(const P& p, Centred at) {
@@ -66,20 +93,20 @@ PixelMetric metric_by_differences(const P& p, Centred at) {
 template <class P>
 PixelMetric metric_of(const P& p, Centred at) {
   if constexpr (requires { p.metric(at); })
-    return p.metric(at);
+    return by_pixels(p, p.metric(at));
   else if constexpr (requires { p.scales(at); })
-    return metric_about_z(p.scales(at), at);
+    return by_pixels(p, metric_about_z(p.scales(at), at));
   else
-    return metric_by_differences(p, at);
+    return by_pixels(p, metric_by_differences(p, at));
 }
 
 template <class P>
 double solid_angle_of(const P& p, Centred at) {
   if constexpr (requires { p.solid_angle(at); }) {
-    return p.solid_angle(at);
+    return p.solid_angle(at) / pixel_aspect_of(p);
   } else if constexpr (requires { p.scales(at); }) {
     const AngularScales s = p.scales(at);
-    return s.radial * s.tangential;
+    return s.radial * s.tangential / pixel_aspect_of(p);
   } else {
     const PixelMetric m = metric_of(p, at);
     return std::sqrt(std::max(0.0, m.xx * m.yy - m.xy * m.xy));
@@ -89,15 +116,20 @@ double solid_angle_of(const P& p, Centred at) {
 // Along the longer axis of the ellipse of a metric a pixel covers the root of its larger eigenvalue.
 template <class P>
 double pixel_angle_of(const P& p, Centred at) {
-  if constexpr (requires { p.pixel_angle(at); }) {
-    return p.pixel_angle(at);
-  } else if constexpr (requires { p.scales(at); }) {
-    const AngularScales s = p.scales(at);
-    return std::max(s.radial, s.tangential);
-  } else {
-    const PixelMetric m = metric_of(p, at);
-    return std::sqrt((m.xx + m.yy) / 2 + std::hypot((m.xx - m.yy) / 2, m.xy));
+  if (pixel_aspect_of(p) == 1) {
+    if constexpr (requires { p.pixel_angle(at); }) return p.pixel_angle(at);
+    if constexpr (requires { p.scales(at); }) {
+      const AngularScales s = p.scales(at);
+      return std::max(s.radial, s.tangential);
+    }
   }
+  const PixelMetric m = metric_of(p, at);
+  return std::sqrt((m.xx + m.yy) / 2 + std::hypot((m.xx - m.yy) / 2, m.xy));
+}
+
+template <class P>
+double largest_pixel_angle_of(const P& p) {
+  return p.largest_pixel_angle() * std::max(1.0, 1 / pixel_aspect_of(p));
 }
 
 template <class P>
@@ -110,7 +142,7 @@ bool shows_at(const P& p, Centred at) {
 template <class P>
 ColumnRange inside_columns_of(const P& p, int row) {
   const int width = width_of(p);
-  const double y = row + 1 - origin_of(p).j;
+  const double y = (row + 1 - origin_of(p).j) / pixel_aspect_of(p);
   ColumnRange range{0, width - 1};
   // The search begins beside the edge of a circle.
   if constexpr (P::kTraits.is_dome) {
@@ -129,7 +161,9 @@ template <class P>
 void add_parameters(const P& p, std::vector<double>& parameters) {
   if constexpr (kHasFieldOfView<P>) parameters.push_back(p.fov);
   if constexpr (kCanBeCut<P>) parameters.push_back(p.cut_back);
-  constexpr std::size_t kKnown = kHasFieldOfView<P> + kCanBeCut<P>;
+  // Square pixels add nothing, so that their frames keep their keys.
+  if (pixel_aspect_of(p) != 1) parameters.push_back(pixel_aspect_of(p));
+  constexpr std::size_t kKnown = kHasFieldOfView<P> + kCanBeCut<P> + kHasPixelAspect<P>;
   static_assert(kHasFieldOfView<P> == (P::kTraits.widest_deg > 0), "a show may set it, or may not");
   static_assert(sizeof(P) <= 2 * sizeof(int) + kKnown * sizeof(double),
                 "a further parameter belongs here");
@@ -187,15 +221,26 @@ CapBox cap_box_of_rim(const P& p, const CameraDirection& n, double angle) {
 }
 
 template <class P>
-CapBox cap_box_of(const P& p, const CameraDirection& n, double angle) {
+CapBox cap_box_by_widths(const P& p, const CameraDirection& n, double angle) {
   if constexpr (requires { p.cap_box(n, angle); }) return p.cap_box(n, angle);
   return cap_box_of_rim(p, n, angle);
+}
+
+// A box has a margin for what a pixel covers, of a width.
+template <class P>
+CapBox cap_box_of(const P& p, const CameraDirection& n, double angle) {
+  CapBox box = cap_box_by_widths(p, n, angle);
+  const double aspect = pixel_aspect_of(p);
+  if (aspect == 1) return box;
+  box.up = box.up * aspect + 1, box.down = box.down * aspect + 1;
+  box.reach = box.reach * std::max(1.0, aspect) + 1;
+  return box;
 }
 
 template <class P>
 CapSpans cap_spans_of(const P& p, const CapPlace& cap, int row, const ColumnRange& inside) {
   if constexpr (requires { p.cap_spans(cap, origin_of(p), row, inside); })
-    return p.cap_spans(cap, origin_of(p), row, inside);
+    if (pixel_aspect_of(p) == 1) return p.cap_spans(cap, origin_of(p), row, inside);
   CapSpans spans;
   if (const auto part = part_of_row(cap, row)) spans.add(part->left, part->right, inside);
   return spans;

@@ -12,6 +12,7 @@
 //
 //     double fov;                              // its opening angle in radians, if a show may set it
 //     double cut_back;                         // of a dome lower than wide, see Fisheye
+//     double pixel_aspect;                     // of pixels that need not be square, see Centred
 //     AngularScales scales(Centred at) const;  // of a projection about Z, or for others
 //     PixelMetric metric(Centred at) const;    // instead of differences of directions
 //     double solid_angle(Centred at) const;    // what follows from the metric
@@ -53,8 +54,11 @@ struct PixelPosition {
   double i, j;
 };
 
-// A Centred place is given in pixels from the middle of the image, or from the pixel that looks
-// along Z on images about that axis (origin_of in projection.h).
+// A Centred place is given from the middle of the image, or from the pixel that looks along Z on
+// images about that axis (origin_of in projection.h), in pixels.  Where these are not square it is
+// in widths of a pixel along both axes, so that formulas of a projection know square pixels only:
+// the rows of [Riazuelo] eq. pix_j are rescaled where a place becomes a pixel (centred() and
+// uncentred() in projection_defaults.h).
 struct Centred {
   double x, y;
 };

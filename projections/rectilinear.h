@@ -14,6 +14,7 @@ struct Rectilinear {
                                             .description = "a flat picture (rectilinear)"};
   int columns = 1920, rows = 1080;  // pixels, > 0
   double fov = 1;                   // full horizontal opening angle, radians, in (0, pi)
+  double pixel_aspect = 1;
 
   // Returns tan(theta) per pixel.
   double scale() const { return 2 * std::tan(fov / 2) / columns; }

@@ -15,6 +15,7 @@ struct Stereographic {
                                             .description = "a flat picture (stereographic)"};
   int columns = 1920, rows = 1080;  // pixels, > 0
   double fov = 1;                   // full horizontal opening angle 2 alpha, radians, in (0, 2 pi)
+  double pixel_aspect = 1;
 
   // Returns the paper's 2 tan(alpha/2)/C, which is tan(theta/2) per pixel.
   double scale() const { return 2 * std::tan(fov / 4) / columns; }

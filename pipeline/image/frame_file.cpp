@@ -106,6 +106,7 @@ FrameInfo info_of(const Imf::Header& header) {
   read_attribute<Imf::DoubleAttribute>(header, kRate, info.frames_per_second);
   read_attribute<Imf::StringAttribute>(header, kExrProjection, info.projection);
   read_attribute<Imf::StringAttribute>(header, "software", info.software);
+  info.pixel_aspect = header.pixelAspectRatio();
   if (const auto* owner = header.findTypedAttribute<Imf::StringAttribute>(kOwner))
     info.owner = owner->value();
   return info;
@@ -199,7 +200,8 @@ std::size_t bytes_of(const std::vector<ExrChannel>& channels) {
 void write_colours(const std::filesystem::path& path, int width, int height,
                    std::vector<ExrChannel> channels, const FrameInfo& info,
                    ExrCompression compression, const FrameData& data = {}) {
-  ExrPicture picture{width, height, std::move(channels), compression, attributes_of(info)};
+  ExrPicture picture{
+      width, height, std::move(channels), compression, attributes_of(info), info.pixel_aspect};
   picture.attributes.insert(picture.attributes.end(), data.attributes.begin(),
                             data.attributes.end());
   const std::pair<std::string, ExrValue> colours[] = {{"chromaticities", kAcesCg},
@@ -264,7 +266,7 @@ template void write_frame(const std::filesystem::path&, const FloatImage&, const
 void write_channels(const std::filesystem::path& path, const ChannelImage& image,
                     const FrameInfo& info) {
   write_sealed(path, {image.width, image.height, interleaved(image.channels, image.pixels.data()),
-                      ExrCompression::kZip, attributes_of(info)});
+                      ExrCompression::kZip, attributes_of(info), info.pixel_aspect});
 }
 
 std::pair<HalfFrame, FrameInfo> read_frame(const std::filesystem::path& path) {

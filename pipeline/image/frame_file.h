@@ -32,6 +32,7 @@ struct FrameInfo {
   // These lead from a world to the camera that made the picture and, where straight lines stay
   // straight, to places in it, both by the rules of the OpenEXR attributes of these names.
   std::optional<ExrMatrix> world_to_camera{}, world_to_ndc{};
+  double pixel_aspect = 1;  // width of a pixel over its height
 };
 
 // Sets how many threads share the packing and unpacking of one file.  With 0 (the start) the

@@ -32,20 +32,22 @@ void write_picture(ByteSink& sink, const RowPicture& picture, const GradedInfo& 
     case GradedKind::kPng8: {
       PngHead head{format.kind == GradedKind::kPng8, info.frame, {}, opaque};
       if (info.colour) head.chunks = png_colour_chunks(*info.colour);
+      if (info.pixel_aspect != 1) head.chunks.push_back(png_pixel_aspect(info.pixel_aspect));
       head.chunks.push_back({"tEXt", std::string(kPngKeyword) + description});
       return write_png(sink, picture, head);
     }
     case GradedKind::kTiff16:
     case GradedKind::kTiff8:
-      return write_tiff(
-          sink, picture,
-          {format.kind == GradedKind::kTiff8, info.frame, description, profile, opaque});
+      return write_tiff(sink, picture,
+                        {format.kind == GradedKind::kTiff8, info.frame, description, profile,
+                         opaque, info.pixel_aspect});
     case GradedKind::kJpeg:
       if (description.size() > kLongestJpegComment)
         throw InputError(fmt::format(
             "the title of the show has {} bytes, and the comment of a JPEG has room for {}",
             info.title.size(), kLongestJpegComment - (description.size() - info.title.size())));
-      return write_jpeg(sink, picture, {format.quality, info.frame, profile, description});
+      return write_jpeg(sink, picture,
+                        {format.quality, info.frame, profile, description, info.pixel_aspect});
   }
 }
 

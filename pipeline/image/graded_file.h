@@ -47,6 +47,7 @@ struct GradedInfo {
   std::string projection;
   std::optional<DisplayColour> colour;  // of the display, where that is known
   OpaqueColumns opaque{};               // of the projection, where the format has an alpha
+  double pixel_aspect = 1;              // width of a pixel over its height
 };
 
 // Writes a frame under its final name when it is complete, while its rows are made.  Throws as

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/info.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -82,10 +83,22 @@ void fill_alpha(const ColumnRange& inside, int row, LayeredFrame<T>& frame) {
     alpha[column] = column >= inside.first && column <= inside.last ? T(1) : T(0);
 }
 
+// Calls use(from, to, channels) for each plane of an image and that of a frame with the same layers.
+template <class T, class Use>
+void each_plane(const LayeredFrame<T>& image, LayeredFrame<T>& frame, const Use& use) {
+  use(image.picture.pixels, frame.picture.pixels, 3);
+  for (std::size_t k = 0; k < frame.layers.size(); ++k) {
+    use(image.layers[k].light.pixels, frame.layers[k].light.pixels, 3);
+    use(image.layers[k].alpha, frame.layers[k].alpha, 1);
+  }
+  for (std::size_t k = 0; k < frame.mattes.size(); ++k)
+    use(image.mattes[k].covered, frame.mattes[k].covered, 1);
+}
+
 // Puts the image of a face into the frame of a cubemap.
 template <class T>
 void put(const LayeredFrame<T>& image, const CubemapFace& face, LayeredFrame<T>& frame) {
-  const auto copy = [&](const auto& from, int channels, auto& to) {
+  each_plane(image, frame, [&](const auto& from, auto& to, int channels) {
     // A layer may be empty on one face and not on another.
     if (from.empty() && to.empty()) return;
     const std::ptrdiff_t width = std::ptrdiff_t{channels} * image.picture.width,
@@ -99,14 +112,37 @@ void put(const LayeredFrame<T>& image, const CubemapFace& face, LayeredFrame<T>&
       else
         std::copy_n(from.begin() + row * width, width, at);
     }
-  };
-  copy(image.picture.pixels, 3, frame.picture.pixels);
-  for (std::size_t k = 0; k < frame.layers.size(); ++k) {
-    copy(image.layers[k].light.pixels, 3, frame.layers[k].light.pixels);
-    copy(image.layers[k].alpha, 1, frame.layers[k].alpha);
-  }
-  for (std::size_t k = 0; k < frame.mattes.size(); ++k)
-    copy(image.mattes[k].covered, 1, frame.mattes[k].covered);
+  });
+}
+
+// Makes each pixel of a frame the mean of its parts, which are the pixels of an image.  A pixel
+// whose middle is not shown is black, as in any frame.
+template <class T>
+void put_means(const LayeredFrame<T>& image, const PixelParts& parts, const Projection& projection,
+               LayeredFrame<T>& frame) {
+  const float share = 1 / static_cast<float>(parts.across * parts.down);
+  const int width = frame.picture.width;
+  each_plane(image, frame, [&](const auto& from, auto& to, int channels) {
+    if (from.empty()) return;
+    to.resize(static_cast<std::size_t>(std::ptrdiff_t{width} * channels * frame.picture.height));
+    tbb::parallel_for(0, frame.picture.height, [&](int row) {
+      const ColumnRange inside = inside_columns(projection, row);
+      auto out = to.begin() + std::ptrdiff_t{row} * width * channels;
+      std::fill_n(out, width * channels, 0.0f);
+      for (int column = inside.first; column <= inside.last; ++column)
+        for (int c = 0; c < channels; ++c) {
+          float sum = 0;
+          for (int down = 0; down < parts.down; ++down)
+            for (int across = 0; across < parts.across; ++across)
+              sum += from[static_cast<std::size_t>(
+                  ((std::ptrdiff_t{row} * parts.down + down) * image.picture.width +
+                   std::ptrdiff_t{column} * parts.across + across) *
+                      channels +
+                  c)];
+          out[column * channels + c] = share * sum;
+        }
+    });
+  });
 }
 
 }  // namespace
@@ -262,6 +298,8 @@ void Renderer::render_view(const FrameState& state, double gap, LayeredFrame<T>&
                          body_times(show_, state, show_.exposure.shutter > 0 ? gap : 0));
   times.tables_s = watch.lap();
   frame.set_size(columns(state.projection), rows(state.projection));
+  const PixelParts parts = parts_nearly_square(state.projection);
+  if (parts.across * parts.down > 1) return render_parts(scene, parts, frame, times);
   const std::vector<CubemapFace> faces = cubemap_faces(state.projection);
   // Only a cubemap has faces.
   if (faces.empty()) return render_image(scene, frame, times);
@@ -274,6 +312,20 @@ void Renderer::render_view(const FrameState& state, double gap, LayeredFrame<T>&
     put(image, face, frame);
     times.add(own);
   }
+}
+
+// The stages take a pixel to be about as wide as it is high.  Where it is not, they draw its parts, as
+// a face that looks where the whole does.
+template <class T>
+void Renderer::render_parts(const FrameScene& scene, const PixelParts& parts,
+                            LayeredFrame<T>& frame, StageTimes& times) {
+  const CubemapFace whole{
+      0, 0, divided(scene.projection(), parts), {V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1)}};
+  const FrameScene scene_of_parts(scene, whole);
+  LayeredFrame<T> image = frame.without_pixels();
+  image.set_size(columns(whole.projection), rows(whole.projection));
+  render_image(scene_of_parts, image, times);
+  memory_->arena.execute([&] { put_means(image, parts, scene.projection(), frame); });
 }
 
 // Renders the image of one projection that is not put together from others.

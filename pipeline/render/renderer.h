@@ -78,6 +78,9 @@ class Renderer {
   template <class T>
   void render_view(const FrameState& state, double gap, LayeredFrame<T>& frame, StageTimes& times);
   template <class T>
+  void render_parts(const FrameScene& scene, const PixelParts& parts, LayeredFrame<T>& frame,
+                    StageTimes& times);
+  template <class T>
   void render_image(const FrameScene& scene, LayeredFrame<T>& image, StageTimes& times);
 
   const Show& show_;

@@ -15,7 +15,9 @@ TEST(PixelDirections, AreThoseOfTheProjection) {
         Projection(Stereographic{64, 40, 2.0}), Projection(Stereographic{500, 500, 6.0}),
         Projection(Rectilinear{640, 360, 2.5}), Projection(Fisheye{801, 600, 4.2, 0.25}),
         Projection(Fisheye{500, 500, 6.28, 0}), Projection(Equirectangular{800}),
-        Projection(Cubemap{77})}) {
+        Projection(Cubemap{77}), Projection(Rectilinear{640, 360, 2.5, 2}),
+        Projection(Stereographic{500, 300, 4.0, 0.75}),
+        Projection(Fisheye{300, 590, 3, 0.25, 2})}) {
     std::uniform_real_distribution<double> i(0.5, columns(p) + 0.5), j(0.5, rows(p) + 0.5);
     constexpr int kCount = 1003;
     std::vector<double> at_i, at_j, angle(kCount);

@@ -20,6 +20,10 @@ const std::vector<Projection>& every_projection() {
                                            Stereographic{64, 64, 1e-9},
                                            Rectilinear{1920, 1080, 1.9},
                                            Rectilinear{640, 480, 3.0},
+                                           Stereographic{720, 576, 1.6, 16. / 11},
+                                           Rectilinear{720, 480, 1.5, 0.9},
+                                           Fisheye{1024, 2000, 4, 0.25, 2},
+                                           Fisheye{1024, 512, 3, 1, 0.5},
                                            Rectilinear{64, 64, 1e-9},
                                            Fisheye{4096, 4096, 7 * pi / 6, 0},
                                            Fisheye{4096, 3072, 1.1 * pi, 1},
@@ -257,7 +261,8 @@ TEST(Projections, ARowsColumnsAreThoseInside) {
        {Projection(Domemaster{1}), Projection(Domemaster{2}), Projection(Domemaster{63}),
         Projection(Domemaster{512}), Projection(Stereographic{64, 40, 2.0}),
         Projection(Rectilinear{64, 40, 2.0}), Projection(Fisheye{63, 41, 4, 0.3}),
-        Projection(Fisheye{64, 8, 4, 1}), Projection(Equirectangular{64}),
+        Projection(Fisheye{64, 8, 4, 1}), Projection(Fisheye{31, 60, 4, 0.3, 2}),
+        Projection(Fisheye{64, 30, 4, 1, 0.5}), Projection(Equirectangular{64}),
         Projection(Cubemap{17})}) {
     for (int row = 0; row < rows(p); ++row) {
       const ColumnRange range = inside_columns(p, row);
@@ -297,6 +302,99 @@ TEST(ImageSize, SidesAreFreeWhereNoShapeIsGiven) {
   for (const Projection& p :
        {Projection(Domemaster{8}), Projection(Equirectangular{8}), Projection(Cubemap{8})})
     EXPECT_FALSE(has_free_shape(p)) << projection_name(p);
+}
+
+// [Riazuelo] eq. pix_j, rescaled along the vertical.
+TEST(PixelAspect, RowsAreRescaledAndColumnsStay) {
+  const Projection square = Stereographic{720, 576, 1.5},
+                   wide = with_pixel_aspect(square, 16. / 11);
+  const CameraDirection n{Imath::V3d(0.3, -0.2, 0.9).normalized()};
+  const PixelPosition a = pixel_of(square, n).value(), b = pixel_of(wide, n).value();
+  EXPECT_DOUBLE_EQ(b.i, a.i);
+  EXPECT_DOUBLE_EQ(b.j - 288.5, (a.j - 288.5) * 16 / 11);
+  EXPECT_DOUBLE_EQ(pixel_aspect(wide), 16. / 11);
+  EXPECT_FALSE(keeps_circles(wide));
+  EXPECT_TRUE(keeps_circles(square));
+}
+
+TEST(PixelAspect, IsThatOfProjectionsThatAreFreeInIt) {
+  for (const Projection& p : kUsualProjections) {
+    const bool free = may_have_pixel_aspect(p);
+    EXPECT_EQ(free, projection_name(p) == "stereographic" || projection_name(p) == "rectilinear" ||
+                        projection_name(p) == "fisheye");
+    EXPECT_EQ(pixel_aspect(with_pixel_aspect(p, 0.75)), free ? 0.75 : 1);
+  }
+}
+
+TEST(PixelAspect, PartsOfPixelsAreNearlySquare) {
+  for (const double aspect : {0.5, 0.6, 0.7, 0.71, 0.9, 1.0, 12. / 11, 1.41, 1.42, 1.6, 2.0}) {
+    const Projection p = Rectilinear{90, 80, 1, aspect};
+    const PixelParts parts = parts_nearly_square(p);
+    const Projection fine = divided(p, parts);
+    EXPECT_EQ(columns(fine), 90 * parts.across);
+    EXPECT_EQ(rows(fine), 80 * parts.down);
+    EXPECT_LE(parts.across * parts.down, 2);
+    EXPECT_LE(std::max(pixel_aspect(fine), 1 / pixel_aspect(fine)), std::numbers::sqrt2);
+    // The corners of the image stay where they are.
+    const auto corner = [](const Projection& q) {
+      return direction_at(q, {columns(q) + 0.5, rows(q) + 0.5}).v;
+    };
+    EXPECT_LT((corner(p) - corner(fine)).length(), 1e-15);
+  }
+  EXPECT_EQ(pixel_aspect(divided(Rectilinear{90, 80, 1, 2}, {2, 1})), 1);
+}
+
+TEST(PixelAspect, OnAScreenImagesHaveTheProportionsOfTheirField) {
+  expect_size(with_square_pixels(Stereographic{720, 576, 1, 16. / 11}), 720, 396);
+  expect_size(with_square_pixels(Fisheye{100, 200, 3, 0.5, 2}), 100, 100);
+  const Projection p = Rectilinear{720, 480, 1, 0.9};
+  EXPECT_DOUBLE_EQ(screen_sides(p).x, 0.9);
+  EXPECT_DOUBLE_EQ(screen_sides(p).y, 1);
+  EXPECT_DOUBLE_EQ(shorter_side(p), 480);
+  EXPECT_DOUBLE_EQ(shorter_side(Rectilinear{500, 800, 1, 2}), 400);
+}
+
+TEST(PixelAspect, TheCircleOfAFisheyeIsAsHighAsItIsWideOnTheScreen) {
+  expect_size(with_sides(Fisheye{10, 10, 1, 0, 2}, 300, 900), 300, 600);
+  const Projection p = Fisheye{300, 600, 3, 0.5, 2};
+  EXPECT_TRUE(is_inside(p, {150.5, 0.6}));
+  EXPECT_TRUE(is_inside(p, {300.4, 300.5}));
+  EXPECT_FALSE(is_inside(p, {10, 10}));
+  EXPECT_NEAR(std::acos(direction_at(p, {150.5, 0.5}).v.z), 1.5, 1e-12);
+  EXPECT_NEAR(std::acos(direction_at(p, {0.5, 300.5}).v.z), 1.5, 1e-12);
+}
+
+// Every pixel of a cap is in its box and in the spans of its row.
+TEST(PixelAspect, CapsLieInTheirBoxes) {
+  std::mt19937 random(5);
+  for (const Projection& p :
+       {Projection(Stereographic{80, 90, 3, 2}), Projection(Rectilinear{80, 60, 2, 0.5}),
+        Projection(Fisheye{60, 110, 5, 0.5, 2})}) {
+    std::uniform_real_distribution<double> u(0.5, columns(p) + 0.5), v(0.5, rows(p) + 0.5),
+        size(0.01, 0.5);
+    for (int k = 0; k < 40; ++k) {
+      const PixelPosition middle{u(random), v(random)};
+      if (!is_inside(p, middle)) continue;
+      const CameraDirection n = direction_at(p, middle);
+      const double angle = size(random);
+      const CapBox box = cap_box(p, n, angle).value();
+      const CapPlace place{middle.i - 1, middle.j - 1, angle, box.reach, 0, columns(p) - 1};
+      for (int row = 0; row < rows(p); ++row) {
+        const ColumnRange inside = inside_columns(p, row);
+        const CapSpans spans = spans_of(p, place, row, inside);
+        for (int column = inside.first; column <= inside.last; ++column) {
+          const CameraDirection at = direction_at(p, {column + 1.0, row + 1.0});
+          if ((at.v - n.v).length() > 2 * std::sin(angle / 2)) continue;
+          const double x = column + 1 - middle.i, y = row + 1 - middle.j;
+          EXPECT_TRUE(x >= -box.left && x <= box.right && y >= -box.up && y <= box.down);
+          EXPECT_TRUE(std::any_of(spans.span.begin(), spans.span.begin() + spans.count,
+                                  [&](const ColumnRange& span) {
+                                    return column >= span.first && column <= span.last;
+                                  }));
+        }
+      }
+    }
+  }
 }
 
 // Axes are right-handed, so that no face is mirrored.

@@ -105,6 +105,7 @@ ExrInTheMaking begin_exr(ByteSink& sink, const ExrPicture& picture) {
   require(exr_add_part(file, nullptr, EXR_STORAGE_SCANLINE, &part));
   require(exr_initialize_required_attr_simple(file, part, picture.width, picture.height,
                                               code_of(picture.compression)));
+  require(exr_set_pixel_aspect_ratio(file, part, static_cast<float>(picture.pixel_aspect)));
   for (const ExrChannel& channel : picture.channels)
     require(exr_add_channel(
         file, part, channel.name.c_str(), type_of(channel),

@@ -71,6 +71,7 @@ struct ExrPicture {
   std::vector<ExrChannel> channels{};  // of different names, in any order
   ExrCompression compression = ExrCompression::kZip;
   std::vector<std::pair<std::string, ExrValue>> attributes{};  // beside those of every file
+  double pixel_aspect = 1;                                     // width over height
 };
 
 // Writes the whole file, on several threads (side_by_side.h).  The bytes depend on the picture

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "pipeline/base/ratio.h"
 #include "pipeline/base/side_by_side.h"
 #include "pipeline/image/encode/dither.h"
 #include "pipeline/image/encode/picture_writers.h"
@@ -66,6 +67,9 @@ class JpegInTheMaking {
     jpeg_.in_color_space = JCS_RGB;
     jpeg_set_defaults(&jpeg_);
     jpeg_set_quality(&jpeg_, head.quality, TRUE);
+    const Ratio aspect = ratio_of(head.pixel_aspect);
+    jpeg_.X_density = static_cast<UINT16>(aspect.under);
+    jpeg_.Y_density = static_cast<UINT16>(aspect.over);
     jpeg_.dct_method = JDCT_ISLOW;  // whose bits are the same on all processors
     jpeg_.comp_info[0].h_samp_factor = jpeg_.comp_info[0].v_samp_factor = 1;
   }

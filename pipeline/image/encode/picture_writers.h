@@ -27,6 +27,9 @@ struct PngHead {
 
 void write_png(ByteSink& sink, const RowPicture& picture, const PngHead& head);
 
+// Returns pHYs, the sides of a pixel in an unknown unit, as so many pixels to it.
+PngChunk png_pixel_aspect(double width_over_height);
+
 // Returns a number as it stands in the file, big-endian.
 std::string png_number(std::uint32_t number);
 
@@ -37,8 +40,9 @@ struct TiffHead {
   bool eight_bits = false;  // dithered (dither.h)
   int frame = 0;            // for the noise
   std::string description;
-  std::string profile;     // ICC; empty for none
-  OpaqueColumns opaque{};  // without it there is no alpha
+  std::string profile;      // ICC; empty for none
+  OpaqueColumns opaque{};   // without it there is no alpha
+  double pixel_aspect = 1;  // width over height, as resolutions where it is not 1
 };
 
 // Throws std::runtime_error for a part that libtiff cannot write.
@@ -48,10 +52,11 @@ void write_tiff(ByteSink& sink, const RowPicture& picture, const TiffHead& head)
 inline constexpr std::size_t kLongestJpegComment = 65533;
 
 struct JpegHead {
-  int quality = 95;     // 1 to 100, libjpeg's scale
-  int frame = 0;        // for the noise of the dithering (dither.h)
-  std::string profile;  // ICC; empty for none
-  std::string comment;  // of at most kLongestJpegComment bytes
+  int quality = 95;         // 1 to 100, libjpeg's scale
+  int frame = 0;            // for the noise of the dithering (dither.h)
+  std::string profile;      // ICC; empty for none
+  std::string comment;      // of at most kLongestJpegComment bytes
+  double pixel_aspect = 1;  // width over height, as the densities of JFIF
 };
 
 // The rows are packed by one thread, since each begins where the one before has ended.  Throws std::runtime_error with libjpeg's reason.

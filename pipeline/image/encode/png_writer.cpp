@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "pipeline/base/deflate.h"
+#include "pipeline/base/ratio.h"
 #include "pipeline/base/side_by_side.h"
 #include "pipeline/image/encode/alpha.h"
 #include "pipeline/image/encode/dither.h"
@@ -101,6 +102,12 @@ std::string png_number(std::uint32_t number) {
 
 std::string png_checksum(std::string_view name_and_data) {
   return png_number(crc32_of(name_and_data));
+}
+
+PngChunk png_pixel_aspect(double width_over_height) {
+  const Ratio aspect = ratio_of(width_over_height);
+  return {"pHYs", png_number(static_cast<std::uint32_t>(aspect.under)) +
+                      png_number(static_cast<std::uint32_t>(aspect.over)) + '\0'};
 }
 
 void write_png(ByteSink& sink, const RowPicture& picture, const PngHead& head) {

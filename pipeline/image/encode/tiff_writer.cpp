@@ -110,6 +110,13 @@ class TiffFile {
     set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
     set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
     set(TIFFTAG_ROWSPERSTRIP, rows_per_strip);
+    // A unit has as many more rows as a pixel is wider than high.
+    if (head.pixel_aspect != 1) {
+      constexpr double kColumns = 72;
+      set(TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
+      set(TIFFTAG_XRESOLUTION, kColumns);
+      set(TIFFTAG_YRESOLUTION, kColumns * head.pixel_aspect);
+    }
     set(TIFFTAG_IMAGEDESCRIPTION, head.description.c_str());
     if (!head.profile.empty())
       set(TIFFTAG_ICCPROFILE, static_cast<std::uint32_t>(head.profile.size()), head.profile.data());

@@ -128,6 +128,7 @@ Json json_of_head(const CheckReport& report) {
           {"projection", projection_name(show.projection)},
           {"width", columns(show.projection)},
           {"height", rows(show.projection)},
+          {"pixel_aspect", rounded_json(pixel_aspect(show.projection))},
           {"display", graded ? Json(report.display) : Json()},
           {"view", graded ? Json(report.view) : Json()},
           {"mass_solar", rounded_json(show.spacetime.solar_masses())}};

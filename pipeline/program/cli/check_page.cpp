@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "pipeline/base/frame_rate.h"
+#include "pipeline/base/ratio.h"
 #include "pipeline/base/talk.h"
 #include "pipeline/base/utf8.h"
 #include "pipeline/grade/grader.h"
@@ -45,10 +46,12 @@ class Page {
   void head() {
     line("title", show_.title);
     const FrameRate rate = frame_rate_of(show_.frames_per_second);
-    line("frames", fmt::format("{} at {} a second ({:.6g} s), {} of {} x {}", frame_count(show_),
+    const double aspect = pixel_aspect(show_.projection);
+    line("frames", fmt::format("{} at {} a second ({:.6g} s), {} of {} x {}{}", frame_count(show_),
                                rate_text(rate), segment_times(show_).back(),
                                projection_name(show_.projection), columns(show_.projection),
-                               rows(show_.projection)));
+                               rows(show_.projection),
+                               aspect == 1 ? "" : " pixels of " + ratio_text(aspect)));
     if (show_.written_rate)
       line("rate", fmt::format("{:g} is taken for {}, the rate of video that it stands for",
                                *show_.written_rate, text_of(rate)));

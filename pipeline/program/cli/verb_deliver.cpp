@@ -111,6 +111,7 @@ void make_sheet(const SheetOptions& o) {
   for (const int frame : shown) labels.push_back(fmt::to_string(frame));
   GradedInfo info = frames.info(0);
   info.key.clear();
+  info.pixel_aspect = 1;
   write_graded(out.path(), sheet_of_frames(frames, show, shown, labels, threads), info, format);
   out.finish();
 }

@@ -43,7 +43,9 @@ std::vector<std::string_view> preset_names() {
   return names;
 }
 
-MovieSize size_of(const Projection& projection) { return {columns(projection), rows(projection)}; }
+MovieSize size_of(const Projection& projection) {
+  return {columns(projection), rows(projection), pixel_aspect(projection)};
+}
 
 // Returns the projection of frames that are rendered for the movie.  They are no larger than the
 // movie unless --size says so, since larger ones would be scaled down.

@@ -78,6 +78,7 @@ void print_states_json(const Show& show, const std::vector<int>& frames) {
     state["fov_deg"] = fov ? *fov / kDegree : traits_of(view.projection).shown_deg;
     state["width"] = columns(view.projection);
     state["height"] = rows(view.projection);
+    state["pixel_aspect"] = pixel_aspect(view.projection);
     state["world_from_camera"] = json_of(world_from_camera(view.observer, view.projection));
     state["world_from_audience"] = json_of(world_from_audience(view));
     std::fputs((before + state.dump()).c_str(), stdout);
@@ -110,7 +111,7 @@ V3d angles_of(const M33d& m, const V3d& before) {
 
 std::optional<double> vertical_view(const Projection& p) {
   if (!traits_of(p).keeps_lines) return std::nullopt;
-  return 2 * std::atan(std::tan(*field_of_view(p) / 2) * rows(p) / columns(p));
+  return 2 * std::atan(std::tan(*field_of_view(p) / 2) * rows(p) / columns(p) / pixel_aspect(p));
 }
 
 // USD multiplies rows by matrices, so that the rows are what M33d has as columns.
@@ -153,7 +154,7 @@ std::string film(const Show& show, const std::vector<FrameState>& states) {
   const Projection& p = show.projection;
   if (!vertical_view(p)) return {};
   return fmt::format("float horizontalAperture = {}\nfloat verticalAperture = {:.9g}\n", kWidth,
-                     kWidth * rows(p) / columns(p)) +
+                     kWidth * rows(p) / columns(p) / pixel_aspect(p)) +
          animated("float focalLength", states, [&](const FrameState& state) {
            return fmt::format("{:.9g}",
                               kWidth / 2 / std::tan(*field_of_view(state.projection) / 2));

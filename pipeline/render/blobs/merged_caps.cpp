@@ -19,10 +19,8 @@ struct Member {
 
 // Returns the number of a cap's square.  The number contains the width, so caps of different widths
 // never share a square.
-std::uint64_t square_of(const CapBlob& b, double pixels_per_radian) {
-  // The sides are at least half a pixel, so 16 bits suffice for 32,000 pixels, twice the largest
-  // frame.
-  const double side = std::max(kSide * b.sigma * pixels_per_radian, 0.5);
+std::uint64_t square_of(const CapBlob& b, double pixels_per_radian, double least_side) {
+  const double side = std::max(kSide * b.sigma * pixels_per_radian, least_side);
   const auto place = [side](double at) {
     return static_cast<std::uint64_t>(std::clamp(at / side + 1024, 0.0, 65535.0));
   };
@@ -59,9 +57,13 @@ void merge(const Projection& projection, const Member* first, const Member* end,
 void merge_crowds(const Projection& projection, std::vector<CapBlob>& blobs) {
   if (blobs.size() < kCrowd) return;
   const double pixels_per_radian = 1 / largest_pixel_angle(projection);
+  // The sides are at least half a pixel, so 16 bits suffice for 32,000 pixels, nearly twice the
+  // largest frame.  Frames whose pixels are drawn in parts may have twice as many.
+  const double least_side = std::max(0.5, std::max(columns(projection), rows(projection)) / 64000.);
   std::vector<Member> members(blobs.size());
   for (std::size_t k = 0; k < blobs.size(); ++k)
-    members[k] = {square_of(blobs[k], pixels_per_radian), static_cast<std::uint32_t>(k)};
+    members[k] = {square_of(blobs[k], pixels_per_radian, least_side),
+                  static_cast<std::uint32_t>(k)};
   std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
     return std::pair(a.square, a.blob) < std::pair(b.square, b.blob);
   });

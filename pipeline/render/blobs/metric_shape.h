@@ -8,9 +8,7 @@ namespace domefall {
 
 // Says whether blob_shape<kDome>(), and the loops that are made of it, hold for a projection.  They
 // serve the two projections in which most frames are drawn.
-inline bool has_blob_loops(const Projection& p) {
-  return is_domemaster(p) || traits_of(p).keeps_circles;
-}
+inline bool has_blob_loops(const Projection& p) { return is_domemaster(p) || keeps_circles(p); }
 
 // Returns the shape of a blob of width sigma (radians) whose middle is at n.  The metric is that at
 // n and must not be degenerate.

@@ -268,7 +268,7 @@ ExrMatrix world_to_camera(const M33d& world_from_camera) {
 std::optional<ExrMatrix> world_to_ndc(const M33d& world_from_camera, const Projection& p) {
   if (!traits_of(p).keeps_lines) return std::nullopt;
   const double half_width = std::tan(*field_of_view(p) / 2),
-               half_height = half_width * rows(p) / columns(p);
+               half_height = half_width * rows(p) / columns(p) / pixel_aspect(p);
   const V3d ahead = -column(world_from_camera, 2);
   return matrix_of(ahead / 2 + column(world_from_camera, 0) / (2 * half_width),
                    ahead / 2 - column(world_from_camera, 1) / (2 * half_height), ahead, ahead, 0);
@@ -291,7 +291,8 @@ FrameInfo frame_info(const Show& show, const std::string& digest, const FrameSta
           .software = kSoftware,
           .owner = show.output.owner,
           .world_to_camera = world_to_camera(camera),
-          .world_to_ndc = world_to_ndc(camera, state.projection)};
+          .world_to_ndc = world_to_ndc(camera, state.projection),
+          .pixel_aspect = pixel_aspect(state.projection)};
 }
 
 GradedInfo graded_info(const Show& show, const Projection& projection, int frame,
@@ -310,7 +311,8 @@ GradedInfo graded_info(const Show& show, const Projection& projection, int frame
           .software = kSoftware,
           .projection = std::string(projection_name(projection)),
           .colour = grader.colour(),
-          .opaque = opaque};
+          .opaque = opaque,
+          .pixel_aspect = pixel_aspect(projection)};
 }
 
 std::vector<int> frames_to_make(const FrameRun& run) { return Run(run).survey(); }

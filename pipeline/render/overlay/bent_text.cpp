@@ -113,9 +113,9 @@ void add_text(const LetteredText& text, const TextSurface& surface, const TextPo
 }
 
 void add_flat_text(const LetteredText& text, const ImagePoint& middle, double capital,
-                   Coverage& coverage) {
+                   const ScreenSides& pixel, Coverage& coverage) {
   const auto place = [&](const TextPoint& p) -> std::optional<ImagePoint> {
-    return ImagePoint{middle.x + capital * p.x, middle.y - capital * p.y};
+    return ImagePoint{middle.x + capital * p.x / pixel.x, middle.y - capital * p.y / pixel.y};
   };
   // In a flat text straight lines do not bend.
   OutlineBender(place, HUGE_VAL).each_polygon(text, [&](const ImagePolygon& polygon) {

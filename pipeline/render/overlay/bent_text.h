@@ -72,10 +72,10 @@ class TextRegion {
 void add_text(const LetteredText& text, const TextSurface& surface, const TextPoint& shift,
               const Projection& projection, Coverage& coverage);
 
-// Adds a text that lies flat in the image, centred on `middle`.  Capitals are `capital` pixels
-// high.
+// Adds a text that lies flat in the image, centred on `middle`.  On the screen capitals are so high,
+// in the unit of ScreenSides.
 void add_flat_text(const LetteredText& text, const ImagePoint& middle, double capital,
-                   Coverage& coverage);
+                   const ScreenSides& pixel, Coverage& coverage);
 
 // Adds the outlines of a text, rounded to 1e-5 of a capital's height, to the key of a frame.  They
 // depend on the machine's fonts.

@@ -22,6 +22,7 @@ class Marks {
       : state_(state),
         projection_(state.projection),
         width_(mark_width(projection_)),
+        pixel_(screen_sides(projection_)),
         coverage_(frame.width, frame.height) {}
 
   const Projection& projection() const { return projection_; }
@@ -33,9 +34,9 @@ class Marks {
   void box(double part) {
     const double w = columns(projection_), h = rows(projection_);
     // The band lies within the image.
-    const double x = std::max(w * (1 - part) / 2, width_ / 2),
-                 y = std::max(h * (1 - part) / 2, width_ / 2);
-    add_stroke({{x, y}, {w - x, y}, {w - x, h - y}, {x, h - y}}, true, width_, coverage_);
+    const double x = std::max(w * (1 - part) / 2, width_ / pixel_.x / 2),
+                 y = std::max(h * (1 - part) / 2, width_ / pixel_.y / 2);
+    add_stroke({{x, y}, {w - x, y}, {w - x, h - y}, {x, h - y}}, true, width_, pixel_, coverage_);
   }
 
   // A Place is a direction as the audience sees it, in degrees.
@@ -62,13 +63,13 @@ class Marks {
     way({-aside, highest}, {-aside, lowest});
   }
 
-  // Adds the circle about the middle of a dome's image at this angle, or at this distance in pixels
-  // from its edge.
+  // Adds the circle about the middle of a dome's image at this angle, or at this distance on the
+  // screen from its edge.
   void circle(double angle) { curve(ViewCircle{V3d(0, 0, 1), std::cos(angle), std::sin(angle)}); }
-  void circle_within(double pixels) {
+  void circle_within(double distance) {
     const PixelPosition middle = origin_of(projection_);
-    const CameraDirection n =
-        direction_at(projection_, {middle.i + columns(projection_) / 2.0 - pixels, middle.j});
+    const CameraDirection n = direction_at(
+        projection_, {middle.i + columns(projection_) / 2.0 - distance / pixel_.x, middle.j});
     curve(ViewCircle{V3d(0, 0, 1), n.v.z, n.v.x});
   }
 
@@ -81,6 +82,7 @@ class Marks {
   const FrameState& state_;
   const Projection& projection_;
   double width_;
+  ScreenSides pixel_;
   Coverage coverage_;
 };
 
@@ -145,7 +147,7 @@ void draw_curves(OverlayKind overlay, const Show& show, const FrameState& state,
 
 double mark_width(const Projection& projection) {
   constexpr double kOfTheSmallerSide = 1. / 700;
-  return std::max(1.0, kOfTheSmallerSide * std::min(columns(projection), rows(projection)));
+  return std::max(1.0, kOfTheSmallerSide * shorter_side(projection));
 }
 
 void draw_marks(OverlayKind overlay, const Show& show, const FrameState& state,

@@ -31,7 +31,7 @@ inline constexpr double kSafeAction = 0.9, kSafeTitles = 0.8;
 // It is our choice, and a larger part would mark more of the image as its middle.
 inline constexpr double kMiddleThird = 1. / 3;
 
-// Returns the width of lines, in pixels.
+// Returns the width of lines, in the unit of ScreenSides.
 double mark_width(const Projection& projection);
 
 // Draws one of the overlays that consist of lines over a frame, which are all except names and

@@ -18,32 +18,35 @@ constexpr int kOverlayVersion = 3;
 LetterStyle burn_in_style(TextAlign align) { return {"Monospace", align}; }
 
 // Puts a text into a corner of the image, on a dark ground that makes it legible on bright skies.
-void draw_in_corner(const std::string& text, bool right, bool bottom, const FrameRef& frame) {
+void draw_in_corner(const std::string& text, bool right, bool bottom, const Projection& projection,
+                    const FrameRef& frame) {
   // Lines of 28 letters fit beside the circle of a dome.
   constexpr double kLetterPart = 1. / 88, kLeastLetter = 5.5, kGround = 0.6;
-  const double letter = std::max(kLeastLetter, kLetterPart * std::min(frame.width, frame.height));
+  const double letter = std::max(kLeastLetter, kLetterPart * shorter_side(projection));
+  const ScreenSides pixel = screen_sides(projection);
   const LetteredText letters =
       lettered(text, burn_in_style(right ? TextAlign::kRight : TextAlign::kLeft));
-  const double w = letters.half_width * letter, h = letters.half_height * letter;
-  const ImagePoint middle{right ? frame.width - w - letter : w + letter,
-                          bottom ? frame.height - h - letter : h + letter};
-  const double x = w + letter / 2, y = h + letter / 2;
+  const double high = letter / pixel.y, wide = letter / pixel.x;  // of a capital, in pixels
+  const double w = letters.half_width * wide, h = letters.half_height * high;
+  const ImagePoint middle{right ? frame.width - w - wide : w + wide,
+                          bottom ? frame.height - h - high : h + high};
+  const double x = w + wide / 2, y = h + high / 2;
   Coverage ground(frame.width, frame.height), written(frame.width, frame.height);
   ground.add({{middle.x - x, middle.y - y},
               {middle.x + x, middle.y - y},
               {middle.x + x, middle.y + y},
               {middle.x - x, middle.y + y}});
-  add_flat_text(letters, middle, letter, written);
+  add_flat_text(letters, middle, letter, pixel, written);
   draw_anywhere(ground, {{0, 0, 0}, kGround}, frame);
   draw_anywhere(written, {{1, 1, 1}, 1}, frame);
 }
 
 void draw_burn_in(const Show& show, const FrameState& state, const FrameRef& frame) {
   const BurnInText corners = burn_in_text(show, state);
-  draw_in_corner(corners.top_left, false, false, frame);
-  draw_in_corner(corners.top_right, true, false, frame);
-  draw_in_corner(corners.bottom_left, false, true, frame);
-  draw_in_corner(corners.bottom_right, true, true, frame);
+  draw_in_corner(corners.top_left, false, false, state.projection, frame);
+  draw_in_corner(corners.top_right, true, false, state.projection, frame);
+  draw_in_corner(corners.bottom_left, false, true, state.projection, frame);
+  draw_in_corner(corners.bottom_right, true, true, state.projection, frame);
 }
 
 }  // namespace

@@ -37,15 +37,17 @@ bool take(const std::vector<ImagePoint>& places, double radius, std::vector<Imag
   return true;
 }
 
-// Returns places in the frame from a star's image to the end of its name, or nothing if the name is
+// Returns places on the screen from a star's image to the end of its name, or nothing if the name is
 // not wholly in the frame.
 std::optional<std::vector<ImagePoint>> places_of_label(const TextSurface& surface, double length,
                                                        const Projection& projection) {
+  const ScreenSides side = screen_sides(projection);
   std::vector<ImagePoint> places;
   for (double x = 0; x < length + 1; ++x) {
     const auto pixel = pixel_of(projection, surface.direction({std::min(x, length), 0}));
     if (!pixel || !is_in_image(projection, *pixel)) return std::nullopt;
-    places.push_back(image_point(*pixel));
+    const ImagePoint at = image_point(*pixel);
+    places.push_back({at.x * side.x, at.y * side.y});
   }
   return places;
 }
@@ -130,8 +132,8 @@ std::vector<NamedImage> StarLabels::images(const FrameState& state, const LightL
 // The ring and the name lie on the surface of a text that has the image in its middle.
 void StarLabels::draw(const FrameState& state, const FrameRef& frame, const LightLeft& left) {
   const Projection& projection = state.projection;
-  const double letter =
-      std::max(kLeastLabel, kLabelPart * std::min(frame.width, frame.height));  // pixels
+  // In the longer side of a pixel, of which pixel_angle() is the angle.
+  const double letter = std::max(kLeastLabel, kLabelPart * shorter_side(projection));
   std::vector<ImagePoint> taken;  // by names, as discs along them
   Coverage primary(frame.width, frame.height), secondary(frame.width, frame.height);
   for (const NamedImage& image : images(state, left)) {

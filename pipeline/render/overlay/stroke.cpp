@@ -11,9 +11,10 @@ namespace {
 // any image except a flat one of more than 340 degrees.
 constexpr double kStrokeBehind = -0.99;
 
-// Returns the unit normal of a piece of line, or 0 if the piece has no length.
-ImagePoint unit_across(const ImagePoint& from, const ImagePoint& to) {
-  const double x = to.x - from.x, y = to.y - from.y, length = std::hypot(x, y);
+// Returns the unit normal of a piece of line on the screen, or 0 if the piece has no length.
+ImagePoint unit_across(const ImagePoint& from, const ImagePoint& to, const ScreenSides& pixel) {
+  const double x = (to.x - from.x) * pixel.x, y = (to.y - from.y) * pixel.y,
+               length = std::hypot(x, y);
   return length > 0 ? ImagePoint{-y / length, x / length} : ImagePoint{0, 0};
 }
 
@@ -40,7 +41,7 @@ void add_run(std::vector<ImagePoint> run, bool closed, double width, const Proje
   each_copy(projection, [&](double shift) {
     std::vector<ImagePoint> copy = run;
     for (ImagePoint& p : copy) p.x += shift;
-    add_stroke(copy, closed, width, coverage);
+    add_stroke(copy, closed, width, screen_sides(projection), coverage);
   });
 }
 
@@ -49,7 +50,7 @@ void add_run(std::vector<ImagePoint> run, bool closed, double width, const Proje
 // The outline of the band goes along the line on one side and back on the other.  Both ends of a
 // closed band meet in a seam of no width.
 void add_stroke(const std::vector<ImagePoint>& line, bool closed, double width,
-                Coverage& coverage) {
+                const ScreenSides& pixel, Coverage& coverage) {
   std::vector<ImagePoint> points;  // without repeated points, between which there is no direction
   for (const ImagePoint& p : line)
     if (points.empty() || std::hypot(p.x - points.back().x, p.y - points.back().y) > 1e-6)
@@ -57,15 +58,15 @@ void add_stroke(const std::vector<ImagePoint>& line, bool closed, double width,
   if (points.size() < 2) return;
   const std::size_t count = points.size(), last = closed ? count : count - 1;
   const auto normal = [&](std::size_t k) {  // of the piece that begins at point k
-    return unit_across(points[k % count], points[(k + 1) % count]);
+    return unit_across(points[k % count], points[(k + 1) % count], pixel);
   };
   ImagePolygon there, back;
   for (std::size_t k = 0; k <= last; ++k) {
     const ImagePoint before = k > 0 ? normal(k - 1) : normal(closed ? count - 1 : 0);
     const ImagePoint after = k < last || closed ? normal(k) : before;
     const ImagePoint offset = offset_between(before, after, width / 2), &p = points[k % count];
-    there.push_back({p.x + offset.x, p.y + offset.y});
-    back.push_back({p.x - offset.x, p.y - offset.y});
+    there.push_back({p.x + offset.x / pixel.x, p.y + offset.y / pixel.y});
+    back.push_back({p.x - offset.x / pixel.x, p.y - offset.y / pixel.y});
   }
   there.insert(there.end(), back.rbegin(), back.rend());
   coverage.add(there);

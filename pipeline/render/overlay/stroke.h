@@ -10,10 +10,11 @@
 
 namespace domefall {
 
-// Adds a band of this width (pixels) about a line through points.  A closed line goes on from its
-// last point to its first.  Where the line turns by a right angle or less, the band keeps its width
-// at the corner.  Boxes and curves of many points need no more.
-void add_stroke(const std::vector<ImagePoint>& line, bool closed, double width, Coverage& coverage);
+// Adds a band about a line through points, of a width on the screen in the unit of ScreenSides.  A
+// closed line goes on from its last point to its first.  Where the line turns by a right angle or
+// less, the band keeps its width at the corner.  Boxes and curves of many points need no more.
+void add_stroke(const std::vector<ImagePoint>& line, bool closed, double width,
+                const ScreenSides& pixel, Coverage& coverage);
 
 // Adds a band about the curve on the camera's sphere that `direction` follows as its argument goes
 // from 0 to 1.  The curve is divided finely enough for the image of the projection.  It is left out

@@ -87,7 +87,7 @@ TitleGround::TitleGround(const LetteredText& text, double plate, double shadow)
   rows_ = static_cast<int>(std::ceil(2 * (half_height_ + kReach) * kPerCapital));
   blurred_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
   Coverage letters(columns_, rows_);
-  add_flat_text(text, {columns_ / 2.0, rows_ / 2.0}, kPerCapital, letters);
+  add_flat_text(text, {columns_ / 2.0, rows_ / 2.0}, kPerCapital, {1, 1}, letters);
   letters.for_each_row([&](int row, int first, std::span<const double> parts) {
     std::ranges::copy(parts,
                       blurred_.begin() + static_cast<std::ptrdiff_t>(row) * columns_ + first);

@@ -152,7 +152,7 @@ bool RayGrid::is_in_image(int row, int column) const {
   const auto away = [](int cell, double middle) {
     return std::max({cell * kStep - middle, middle - (cell * kStep + kStep - 1), 0.0});
   };
-  const double x = away(column, circle_->i), y = away(row, circle_->j);
+  const double x = away(column, circle_->i), y = away(row, circle_->j) / pixel_aspect(projection_);
   const double radius = columns(projection_) / 2.0;
   return x * x + y * y <= radius * radius;
 }

@@ -145,7 +145,7 @@ StarPlane::StarPlane(const Projection& projection, double reach)
     // The middle of a blob that reaches over the rim is no farther beyond it than `reach`.
     least_z_ = -std::sin(std::min(reach, pi / 2));
     fast_dome_ = least_z_ >= kLeastCosine;
-  } else if (traits_of(projection).keeps_circles) {
+  } else if (keeps_circles(projection)) {
     // The middle of a blob that touches the frame is no farther from it than `reach`.  The margin
     // is that angle in pixels, at the scale that the projection has as far beyond a corner.  The
     // scale is the derivative of 2 tan(theta/2), which grows like 1/cos^2(theta/2).
@@ -163,7 +163,7 @@ StarPlane::StarPlane(const Projection& projection, double reach)
 int StarPlane::place(StarViews& views, int count, int* listed) const {
   if (fast_dome_)
     onto_dome(scale_, middle_i_, count, views);
-  else if (traits_of(projection_).keeps_circles)
+  else if (keeps_circles(projection_))
     onto_plane(scale_, middle_i_, middle_j_, count, views);
   else
     onto_any(projection_, least_z_, count, views);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/frame_rate.h"
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/camera_world.h"
 #include "pipeline/show/file/camera_file.h"
@@ -47,11 +48,14 @@ Projection read_sides(const Item& size, const Projection& usual) {
   const std::vector<Item> items = *read_list(size);
   const int width = read_whole_number(items[0], kPixels).value_or(columns(usual)),
             height = read_whole_number(items[1], kPixels).value_or(rows(usual));
-  if (traits_of(usual).is_dome && height > width)
-    size.fail(
-        fmt::format("must be at most as high as wide (the circle of a fisheye touches both "
-                    "sides), got [{}, {}]",
-                    width, height));
+  if (traits_of(usual).is_dome && height > most_rows(width, pixel_aspect(usual)))
+    size.fail(fmt::format(
+        "must be at most as high as wide (the circle of a fisheye touches both sides{}), got [{}, "
+        "{}]",
+        pixel_aspect(usual) == 1
+            ? ""
+            : fmt::format(", which are {} pixels", most_rows(width, pixel_aspect(usual))),
+        width, height));
   return with_sides(usual, width, height);
 }
 
@@ -69,6 +73,23 @@ Projection read_size(const Item& size, const Projection& usual) {
   if (traits.even && pixels % 2 != 0)
     size.fail(fmt::format("must be even (a whole sphere is half as high as wide), got {}", pixels));
   return with_sides(usual, traits.in_width * pixels, traits.in_width * pixels);
+}
+
+// Reads a number, or a ratio such as 16:11.
+std::optional<double> read_ratio(const Item& item, const Range& range) {
+  std::string text = item.node.IsScalar() ? item.node.Scalar() : std::string();
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return read_number(item, range);
+  constexpr int kMost = 10000;
+  text[colon] = '/';
+  // Its text is that of a fraction, and so are its bounds.
+  const FrameRate ratio = parse_frame_rate(text);
+  if (ratio.seconds > 0 && std::max(ratio.frames, ratio.seconds) <= kMost)
+    return in_range(item, per_second(ratio), range);
+  item.fail(fmt::format(
+      "must be a number, or a ratio of two whole numbers up to {} such as 16:11, got {}", kMost,
+      kind_of(item)));
+  return std::nullopt;
 }
 
 // Returns the names of the projections of which something holds, as they stand in a message.
@@ -89,15 +110,29 @@ Projection read_cut(const Section& camera, const Projection& projection) {
   const bool can_cut = cut_back(projection).has_value();
   if (cut && !can_cut)
     cut->fail(fmt::format("goes with the {} projection only", projections_that(cut_back)));
-  if (cut && can_cut && rows(projection) == columns(projection))
+  if (cut && can_cut &&
+      rows(projection) == most_rows(columns(projection), pixel_aspect(projection)))
     cut->fail("is for a size of [width, height] that is lower than wide; this one is a square");
   return can_cut ? with_cut_back(projection, camera.word("cut", {1.0, 0.0, 0.5})) : projection;
+}
+
+// Reads `pixel_aspect`, which the section `output` has.  The size of a fisheye depends on it.
+Projection read_pixels(const Section& show, const Projection& projection) {
+  const Item* output = show.find("output");
+  const auto given = output ? peek(*output, "pixel_aspect") : std::nullopt;
+  if (!given) return projection;
+  const auto row = std::ranges::find(keys_of("output"), "pixel_aspect", &Key::name);
+  const double aspect = read_ratio(*given, row->range()).value_or(1);
+  if (aspect != 1 && !may_have_pixel_aspect(projection))
+    given->fail(fmt::format("goes with the projections {}; the pixels of a {} are square",
+                            projections_that(may_have_pixel_aspect), projection_name(projection)));
+  return with_pixel_aspect(projection, aspect);
 }
 
 // Reads the projection with the show's `size`.  A variable opening angle has its default.
 Projection read_projection(const Section& show, const Section& camera) {
   // The projection comes before the size, since it decides which form that has.
-  Projection projection = camera.word("projection", kUsualProjections);
+  Projection projection = read_pixels(show, camera.word("projection", kUsualProjections));
   if (const Item* size = show.find("size")) projection = read_size(*size, projection);
   projection = read_cut(camera, projection);
   return with_field_of_view(projection, radians(traits_of(projection).usual_deg));

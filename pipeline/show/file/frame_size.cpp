@@ -32,7 +32,7 @@ Projection with_stated_sides(const Projection& projection, const std::string& si
   if (!is_frame_size(width) || !is_frame_size(height))
     throw InputError(asked + size +
                      ": a flat picture takes WIDTHxHEIGHT, each from 16 to 16384 pixels");
-  if (traits_of(projection).is_dome && height > width)
+  if (traits_of(projection).is_dome && height > most_rows(width, pixel_aspect(projection)))
     throw InputError(asked + size + ": a fisheye is at most as high as wide");
   return with_sides(projection, width, height);
 }

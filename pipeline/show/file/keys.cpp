@@ -288,6 +288,7 @@ constexpr std::string_view kRows = R"(
 | `reflectance` | 0 to 1: the part of light that the dome's surface reflects | [0.45] |
 ## output
 | `linear` | `half`, `float` or `none`: scene-linear OpenEXR, of 16-bit floats or of 32 bits, twice the size, for compositing: bright stars beyond 65504 keep their light and dim ones their digits. A change from one to the other makes all frames again | [`half`] |
+| `pixel_aspect` | 0.5 to 2: the width of a pixel over its height, of flat pictures and fisheyes, or a ratio such as `16:11`, [below](#pixels-that-are-not-square) | [1] |
 | `layers` | a list of any of `sky`, `stars`, `disc`, `bodies` and `titles`: these parts of the light, too, in the scene-linear files, as [compositing.md](compositing.md) says | none |
 | `layer_files` | `true` or `false`: whether each layer has a file of its own, `layers/disc/NAME_00000.exr`, with channels `R`, `G`, `B` and, where it has one, `A` | [`false`] |
 | `data` | a list of any of `lens`, `mattes` and `cryptomatte`: numbers about each pixel, as channels of 32 bits in the scene-linear files, as [compositing.md](compositing.md) says | none |

@@ -22,14 +22,15 @@ int part_begin(int k, int from, int to) {
 
 }  // namespace
 
-GradedFrame reduced_picture(const GradedFrame& picture, int columns, int rows) {
-  const double scale = std::min({1.0, static_cast<double>(columns) / picture.width,
-                                 static_cast<double>(rows) / picture.height});
-  if (scale >= 1) return picture;
-  const auto scaled = [scale](int side) {
+GradedFrame reduced_picture(const GradedFrame& picture, int columns, int rows,
+                            const ScreenSides& pixel) {
+  const double wide = picture.width * pixel.x, high = picture.height * pixel.y;
+  const double scale = std::min({1.0, columns / wide, rows / high});
+  const auto scaled = [scale](double side) {
     return std::max(1, static_cast<int>(std::lround(scale * side)));
   };
-  GradedFrame out(scaled(picture.width), scaled(picture.height));
+  GradedFrame out(scaled(wide), scaled(high));
+  if (out.width == picture.width && out.height == picture.height) return picture;
   std::vector<std::uint64_t> sums(3 * static_cast<std::size_t>(out.width));
   for (int y = 0; y < out.height; ++y) {
     std::fill(sums.begin(), sums.end(), 0);
@@ -93,7 +94,8 @@ GradedFrame sheet_of_frames(const GradedFrames& from, const Show& show,
   std::vector<SheetPicture> pictures(frames.size());
   in_parallel(static_cast<int>(frames.size()), threads, [&](int k) {
     const auto at = static_cast<std::size_t>(k);
-    pictures[at].picture = reduced_picture(from.read(frames[at]), kSheetPicture, kSheetPicture);
+    pictures[at].picture = reduced_picture(from.read(frames[at]), kSheetPicture, kSheetPicture,
+                                           screen_sides(show.projection));
     pictures[at].label =
         fmt::format("{}    {}", labels[at], clock_text(frames[at] / show.frames_per_second));
   });

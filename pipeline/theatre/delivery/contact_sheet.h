@@ -6,13 +6,15 @@
 
 #include "pipeline/image/frame_buffer.h"
 #include "pipeline/render/frames/graded_frames.h"
+#include "projections/projection.h"
 
 namespace domefall {
 
-// Returns a copy of at most `columns` by `rows` pixels with the same aspect ratio.  Each pixel is
-// the mean of the codes of those that it covers.  The picture itself is returned where it is no
-// larger.
-GradedFrame reduced_picture(const GradedFrame& picture, int columns, int rows);
+// Returns a copy of at most `columns` by `rows` square pixels that looks like a picture whose pixels
+// have these sides.  Each pixel is the mean of the codes of those that it covers.  A picture of
+// square pixels that is no larger is returned as it is.
+GradedFrame reduced_picture(const GradedFrame& picture, int columns, int rows,
+                            const ScreenSides& pixel = {1, 1});
 
 // A picture on a sheet has at most this many columns and rows.
 inline constexpr int kSheetPicture = 256;

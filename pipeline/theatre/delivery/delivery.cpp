@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/base/ratio.h"
 #include "trajectories/short_number.h"
 
 namespace domefall {
@@ -81,9 +82,11 @@ double duration_s(const Delivery& delivery) {
 }
 
 ShowLines show_lines(const Delivery& d) {
+  const double aspect = pixel_aspect(d.projection);
   return {
       d.title,
-      fmt::format("{} x {}, {}", columns(d.projection), rows(d.projection),
+      fmt::format("{} x {}{}, {}", columns(d.projection), rows(d.projection),
+                  aspect == 1 ? "" : " pixels of " + ratio_text(aspect),
                   projection_name(d.projection)),
       fmt::format("{} frames a second", rate_text(d.rate)),
       fmt::format("{} frames, {:.3f} s", d.names.count(), duration_s(d)),
@@ -108,6 +111,7 @@ std::string metadata_text(const Delivery& d) {
       {"duration_s", duration_s(d)},
       {"width", columns(d.projection)},
       {"height", rows(d.projection)},
+      {"pixel_aspect", pixel_aspect(d.projection)},
       {"projection", projection_name(d.projection)},
       {"front", traits_of(d.projection).is_dome ? Json("bottom") : Json()},
       {"dimensions", "2D"},

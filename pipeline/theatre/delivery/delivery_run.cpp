@@ -236,6 +236,12 @@ class Deliverer {
     info.key.clear();
     return info;
   }
+  // Of pictures that show frames as a screen does.
+  GradedInfo screen_info() const {
+    GradedInfo info = picture_info();
+    info.pixel_aspect = 1;
+    return info;
+  }
 
   void draw_pictures() const {
     const ShowLines lines = show_lines(delivery_);
@@ -252,13 +258,14 @@ class Deliverer {
     labels.reserve(shown.size());
     for (const int frame : shown) labels.push_back(fmt::to_string(frame + 1));
     write_graded(run_.out / kContactSheet,
-                 sheet_of_frames(source_, run_.show, shown, labels, at_once), picture_info(),
+                 sheet_of_frames(source_, run_.show, shown, labels, at_once), screen_info(),
                  {GradedKind::kPng8});
     constexpr int kPreviewRows = 1080;
     const int middle = delivery_.names.count() / 2;
     write_graded(run_.out / kPreview,
-                 reduced_picture(source_.read(middle), columns(run_.show.projection), kPreviewRows),
-                 picture_info(), {GradedKind::kPng8});
+                 reduced_picture(source_.read(middle), columns(run_.show.projection), kPreviewRows,
+                                 screen_sides(run_.show.projection)),
+                 screen_info(), {GradedKind::kPng8});
   }
 
   void write_texts() const {

@@ -10,12 +10,13 @@
 #include <string>
 
 namespace domefall {
-Drawing::Drawing(int width, int height)
+Drawing::Drawing(int width, int height, const ScreenSides& pixel)
     : width_(width),
       height_(height),
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height),
                cairo_surface_destroy),
       cairo_(cairo_create(surface_.get()), cairo_destroy) {
+  cairo_scale(cairo_.get(), 1 / pixel.x, 1 / pixel.y);
   check();
 }
 

@@ -1,5 +1,6 @@
 // A Drawing is a picture of lines and texts.  Places are in pixels from the top left corner, where
-// the middle of the first pixel is (0.5, 0.5).  Greys and colours are display codes, 0 to 1.  Cairo
+// the middle of the first pixel is (0.5, 0.5).  Where pixels are not square, lengths and places are
+// in the unit of ScreenSides.  Greys and colours are display codes, 0 to 1.  Cairo
 // draws them.
 #pragma once
 
@@ -11,6 +12,7 @@
 
 #include "pipeline/base/lettering.h"
 #include "pipeline/image/frame_buffer.h"
+#include "projections/projection.h"
 
 namespace domefall {
 
@@ -21,8 +23,9 @@ struct DrawingPoint {
 class Drawing {
  public:
   // Begins a black picture.  Throws std::bad_alloc, and std::runtime_error with Cairo's reason.
-  Drawing(int width, int height);
+  Drawing(int width, int height, const ScreenSides& pixel = {1, 1});
 
+  // In pixels.
   int width() const { return width_; }
   int height() const { return height_; }
 

@@ -16,13 +16,15 @@ namespace {
 // A Board is a picture of letters and lines, which grow with it, and its projection.
 struct Board {
   explicit Board(const Projection& projection)
-      : drawing(columns(projection), rows(projection)),
+      : drawing(columns(projection), rows(projection), screen_sides(projection)),
         projection(projection),
         dome(traits_of(projection).half_sphere),
-        size(std::min(drawing.width(), drawing.height())),
+        width(drawing.width() * screen_sides(projection).x),
+        height(drawing.height() * screen_sides(projection).y),
+        size(std::min(width, height)),
         thin(std::max(1.0, size / 1500)) {}
 
-  DrawingPoint middle() const { return {drawing.width() / 2.0, drawing.height() / 2.0}; }
+  DrawingPoint middle() const { return {width / 2, height / 2}; }
 
   // Returns the place of an altitude and an azimuth (degrees; 0 is the front, 90 the right hand) on
   // a dome.
@@ -42,8 +44,9 @@ struct Board {
   Drawing drawing;
   Projection projection;
   bool dome;
-  double size;  // pixels of the shorter side
-  double thin;  // pixels
+  double width, height;  // as Drawing counts
+  double size;           // of the shorter side
+  double thin;
 };
 
 // Draws a text that those read upright who turn towards it.
@@ -89,7 +92,7 @@ void draw_dome_grid(Board& board) {
 
 void draw_flat_grid(Board& board) {
   Drawing& drawing = board.drawing;
-  const double w = drawing.width(), h = drawing.height();
+  const double w = board.width, h = board.height;
   const auto frame = [&](double part) {
     const double x = w * (1 - part) / 2 + board.thin / 2, y = h * (1 - part) / 2 + board.thin / 2;
     drawing.line({x, y}, {w - x, y}, board.thin);

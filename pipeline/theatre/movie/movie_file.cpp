@@ -131,7 +131,7 @@ std::string codec_of(const Arguments& video) {
 ChildOutcome try_small(const MoviePlan& plan) {
   constexpr int kSide = 128;
   MoviePlan small = plan;
-  small.frames = {kSide, kSide};
+  small.frames = {kSide, kSide, plan.frames.pixel_aspect};
   small.first = 0, small.count = 1;
   const TextFile subtitles = text_file(plan.subtitles.substr(0, plan.subtitles.find("Dialogue")));
   const MemoryFile made("a movie on trial"), wrapped("a movie on trial");

@@ -71,7 +71,7 @@ MoviePlan plan_movie(const MoviePreset& preset, const Show& show, const std::vec
     throw InputError(
         fmt::format("--preset {}: takes frames of the projection {}, and those of this show are {}",
                     preset.name, Equirectangular::kTraits.name, projection_name(projection)));
-  const MovieSize size{columns(projection), rows(projection)};
+  const MovieSize size{columns(projection), rows(projection), pixel_aspect(projection)};
   const MovieSize made = movie_size(preset, size);
   MoviePlan plan{preset,
                  show.title,

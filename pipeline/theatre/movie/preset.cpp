@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/ratio.h"
 #include "pipeline/show/nearest_word.h"
 
 namespace domefall {
@@ -108,6 +109,14 @@ std::string conversion(const MoviePreset& preset, const ColourTags& tags, const 
                      preset.pixels);
 }
 
+// Returns the option of ffmpeg's filter ass for pixels that are not square: the size that the movie
+// has on a screen.
+std::string width_of_letters(const MovieSize& movie) {
+  if (movie.pixel_aspect == 1) return {};
+  return fmt::format(":original_size={}x{}", movie.width,
+                     std::lround(movie.height / movie.pixel_aspect));
+}
+
 // Returns the map of ffmpeg's filter join that makes file k the channel k of a layout, such as
 // 0.0-FL|1.0-FR.
 std::string join_map(std::string_view layout) {
@@ -183,7 +192,7 @@ MovieSize movie_size(const MoviePreset& preset, const MovieSize& frames) {
     const auto steps = static_cast<int>(std::lround(side * factor / preset.multiple));
     return std::max(1, steps) * preset.multiple;
   };
-  return {scaled(frames.width), scaled(frames.height)};
+  return {scaled(frames.width), scaled(frames.height), frames.pixel_aspect};
 }
 
 std::vector<std::string> input_options(const MovieSize& frames, const FrameRate& rate) {
@@ -197,12 +206,16 @@ std::vector<std::string> video_options(const MoviePreset& preset, const MovieSiz
                                        const FrameRate& rate, const ColourTags& tags,
                                        const std::string& subtitles) {
   const VideoTags video = video_tags(preset, tags);
-  std::string filters = conversion(preset, tags, movie_size(preset, frames));
+  const MovieSize movie = movie_size(preset, frames);
+  std::string filters = conversion(preset, tags, movie);
   // Times in the ASS format are hundredths of a second, which do not tell one frame from the next
   // at a high rate.  So the frames are a tenth of a second apart while they are written on.
   if (!subtitles.empty())
-    filters += fmt::format(",settb=1/10,setpts=N,ass=filename={},settb={}/{},setpts=N", subtitles,
-                           rate.seconds, rate.frames);
+    filters += fmt::format(",settb=1/10,setpts=N,ass=filename={}{},settb={}/{},setpts=N", subtitles,
+                           width_of_letters(movie), rate.seconds, rate.frames);
+  // A player takes pixels to be square that no movie says anything of.
+  if (const Ratio aspect = ratio_of(frames.pixel_aspect); frames.pixel_aspect != 1)
+    filters += fmt::format(",setsar={}/{}", aspect.over, aspect.under);
   filters += fmt::format(",setparams=range={}:color_primaries={}:color_trc={}:colorspace={}",
                          video.range, tags.primaries, tags.transfer, video.matrix);
   std::vector<std::string> options{"-vf", filters};

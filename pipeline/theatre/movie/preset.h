@@ -37,6 +37,7 @@ std::string_view format_of(const MoviePreset& preset);
 
 struct MovieSize {
   int width = 0, height = 0;
+  double pixel_aspect = 1;  // width of a pixel over its height
 
   bool operator==(const MovieSize&) const = default;
 };

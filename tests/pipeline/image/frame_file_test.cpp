@@ -74,12 +74,14 @@ TEST_F(FrameFile, OfFloatsIsReadAsHalves) {
   frame.pixels[4] = 1e9f;
   FrameInfo given = sample_info();
   given.owner = "A planetarium";
+  given.pixel_aspect = 16. / 11;
   write_frame(folder_ / "f.exr", frame, given, ExrCompression::kPiz);
   const auto [read, info] = read_frame(folder_ / "f.exr");
   for (std::size_t k = 0; k < frame.pixels.size(); ++k)
     EXPECT_EQ(static_cast<float>(read.pixels[k]),
               k == 4 ? 65504.0f : static_cast<float>(Imath::half(frame.pixels[k])));
   EXPECT_EQ(info.owner, "A planetarium");
+  EXPECT_NEAR(info.pixel_aspect, 16. / 11, 1e-7);
   EXPECT_EQ(info.key, given.key);
 }
 
@@ -189,6 +191,21 @@ TEST_F(GradedFiles, HaveTheSameBytesForAnyNumberOfThreads) {
       std::filesystem::remove(rows);
     }
     set_file_threads(0);
+  }
+}
+
+// As programs read it by which pictures are shown.
+TEST_F(GradedFiles, SayHowWideTheirPixelsAre) {
+  GradedInfo info = graded_info();
+  info.pixel_aspect = 16. / 11;
+  for (const GradedKind kind : kEveryKind) {
+    const auto path = folder_ / (std::string("g.") + extension_of(kind));
+    write_graded(path, graded_sample(), info, {kind});
+    EXPECT_EQ(check_frame(path, wanted_graded(33, 21)).condition, FrameCondition::kGood);
+    const auto spec = OIIO::ImageInput::open(path.string())->spec();
+    const double across = spec.get_float_attribute("XResolution"),
+                 down = spec.get_float_attribute("YResolution");
+    EXPECT_NEAR(down / across, 16. / 11, 1e-6) << path;
   }
 }
 

@@ -55,6 +55,26 @@ TEST_F(ShowProjections, ImagesOfTheWholeSphereHaveOneSize) {
               3 * face);
 }
 
+TEST_F(ShowProjections, PixelsMayBeWiderThanHigh) {
+  const std::string flat = "size: [720, 576]\ncamera: {projection: ";
+  for (const auto& [written, aspect] : {std::pair{"16:11", 16. / 11},
+                                        {"12:11", 12. / 11},
+                                        {"\"2:1\"", 2.},
+                                        {"0.9", 0.9},
+                                        {"1", 1.}})
+    for (const char* projection : {"stereographic", "rectilinear", "fisheye"}) {
+      const Projection p =
+          with(flat + projection + "}\noutput: {pixel_aspect: " + written + "}").projection;
+      EXPECT_DOUBLE_EQ(pixel_aspect(p), aspect) << written;
+      EXPECT_EQ(columns(p), 720);
+      EXPECT_EQ(rows(p), 576);
+    }
+  EXPECT_EQ(pixel_aspect(with("output: {pixel_aspect: 1}").projection), 1);
+  // The circle of a fisheye is round on the screen.
+  const std::string fisheye = "camera: {projection: fisheye}\noutput: {pixel_aspect: 2}\n";
+  EXPECT_EQ(rows(with("size: [500, 1000]\n" + fisheye).projection), 1000);
+}
+
 // One camera serves all images for an audience.
 TEST_F(ShowProjections, ImagesWithAZenithHaveTheAxesOfADome) {
   const std::string camera = ", look_at: hole, elevation_deg: 20, dome_tilt_deg: 10, roll_deg: 5}";
@@ -76,6 +96,22 @@ TEST_F(ShowErrorsInProjections, AreToldWithTheirPlace) {
       {"size: [100, 101]\ncamera: {projection: fisheye}",
        "3:7: size must be at most as high as wide (the circle of a fisheye touches both sides), "
        "got [100, 101]"},
+      {"size: [100, 201]\ncamera: {projection: fisheye}\noutput: {pixel_aspect: 2}",
+       "3:7: size must be at most as high as wide (the circle of a fisheye touches both sides, "
+       "which are 200 pixels), got [100, 201]"},
+      {"output: {pixel_aspect: 16:11}",
+       "3:24: output.pixel_aspect goes with the projections fisheye, stereographic and "
+       "rectilinear; the pixels of a domemaster are square"},
+      {"camera: {projection: cubemap}\noutput: {pixel_aspect: 2}",
+       "4:24: output.pixel_aspect goes with the projections fisheye, stereographic and "
+       "rectilinear; the pixels of a cubemap are square"},
+      {"size: [64, 64]\ncamera: {projection: rectilinear}\noutput: {pixel_aspect: 5:2}",
+       "5:24: output.pixel_aspect must be at most 2, got 5:2"},
+      {"size: [64, 64]\ncamera: {projection: rectilinear}\noutput: {pixel_aspect: 0:2}",
+       "5:24: output.pixel_aspect must be a number, or a ratio of two whole numbers up to 10000 "
+       "such as 16:11, got '0:2'"},
+      {"size: [64, 64]\ncamera: {projection: rectilinear}\noutput: {pixel_aspect: wide}",
+       "5:24: output.pixel_aspect must be a number, got 'wide'"},
       {"size: 101\ncamera: {projection: equirectangular}",
        "3:7: size must be even (a whole sphere is half as high as wide), got 101"},
       {"size: 5462\ncamera: {projection: cubemap}",

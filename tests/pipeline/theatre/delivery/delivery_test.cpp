@@ -165,6 +165,22 @@ TEST(ContactSheet, KeepsTheMeanOfWhatItReduces) {
   EXPECT_EQ(reduced_picture(picture, 100, 100).pixels, picture.pixels);
 }
 
+TEST(ContactSheet, ShowsPixelsAsAScreenDoes) {
+  GradedFrame picture(40, 60);
+  for (std::size_t k = 0; k < picture.pixels.size(); ++k)
+    picture.pixels[k] = static_cast<unsigned short>(1000 * (k % 3));
+  for (const auto& [pixel, width, height] :
+       {std::tuple{ScreenSides{1, 0.5}, 40, 30}, {ScreenSides{0.75, 1}, 30, 60}}) {
+    const GradedFrame shown = reduced_picture(picture, 100, 100, pixel);
+    EXPECT_EQ(shown.width, width);
+    EXPECT_EQ(shown.height, height);
+    EXPECT_EQ(shown.row(7)[3 * 5 + 2], 2000);
+  }
+  const GradedFrame small = reduced_picture(picture, 20, 20, {1, 0.5});
+  EXPECT_EQ(small.width, 20);
+  EXPECT_EQ(small.height, 15);
+}
+
 TEST(ContactSheet, ShowsEveryPicture) {
   std::vector<SheetPicture> pictures;
   for (int k = 0; k < 7; ++k) {

@@ -125,6 +125,17 @@ TEST(MovieSize, LargerFramesAreScaledDownInTheirShape) {
   EXPECT_EQ(movie_size(movie_preset("dome"), {100, 100}), (MovieSize{100, 100}));
 }
 
+TEST(MoviePreset, SaysHowWidePixelsAreThatAreNotSquare) {
+  for (const char* preset : {"review", "dome", "master", "hap"}) {
+    EXPECT_THAT(value_of(options_of(preset, {64, 64}, {1, 4, 1}, "subtitles"), "-vf"),
+                Not(HasSubstr("setsar")));
+    const std::string filters =
+        value_of(options_of(preset, {64, 64, 16. / 11}, {1, 4, 1}, "subtitles"), "-vf");
+    EXPECT_THAT(filters, HasSubstr(",setsar=16/11"));
+    EXPECT_THAT(filters, HasSubstr("ass=filename=subtitles:original_size=64x44,"));
+  }
+}
+
 TEST(MovieSize, AWholeSphereIsTwiceAsWideAsHigh) {
   EXPECT_EQ(movie_size(movie_preset("vr360"), {8192, 4096}), (MovieSize{8192, 4096}));
   EXPECT_EQ(movie_size(movie_preset("vr360"), {16384, 8192}), (MovieSize{8192, 4096}));
