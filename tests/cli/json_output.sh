@@ -48,7 +48,8 @@ for show in ('fall.yaml', 'flat.yaml'):
     states = parsed(domefall('states', show, '--frames', '0-5,7', '--json'))
     assert len(rows) == len(states) == 7
     for row, state in zip(rows, states):
-        of_camera = ['projection', 'fov_deg', 'width', 'height', 'world_from_camera', 'world_from_audience']
+        of_camera = ['projection', 'fov_deg', 'width', 'height', 'pixel_aspect', 'world_from_camera',
+                     'world_from_audience']
         assert list(row) + of_camera == list(state), (row, state)
         for key in of_camera:
             del state[key]

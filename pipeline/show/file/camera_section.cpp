@@ -68,11 +68,14 @@ Projection read_size(const Item& size, const Projection& usual) {
     size.fail("must be [width, height] in pixels (this projection is flat), got " + kind_of(size));
     return usual;
   }
-  const int pixels = read_one_size(size, columns(usual) / traits.in_width,
-                                   kMostPixels / traits.in_width, traits.one_number);
+  const double aspect = pixel_aspect(usual);
+  const int pixels = read_one_size(
+      size, columns(usual) / traits.in_width,
+      most_rows(kMostPixels, std::min(1.0, 1 / aspect)) / traits.in_width, traits.one_number);
   if (traits.even && pixels % 2 != 0)
     size.fail(fmt::format("must be even (a whole sphere is half as high as wide), got {}", pixels));
-  return with_sides(usual, traits.in_width * pixels, traits.in_width * pixels);
+  const int width = traits.in_width * pixels;
+  return with_sides(usual, width, most_rows(width, aspect));
 }
 
 // Reads a number, or a ratio such as 16:11.
@@ -126,7 +129,10 @@ Projection read_pixels(const Section& show, const Projection& projection) {
   if (aspect != 1 && !may_have_pixel_aspect(projection))
     given->fail(fmt::format("goes with the projections {}; the pixels of a {} are square",
                             projections_that(may_have_pixel_aspect), projection_name(projection)));
-  return with_pixel_aspect(projection, aspect);
+  // Without a size a fisheye shows all of its circle.
+  const Projection made = with_pixel_aspect(projection, aspect);
+  return traits_of(made).is_dome ? with_sides(made, columns(made), most_rows(columns(made), aspect))
+                                 : made;
 }
 
 // Reads the projection with the show's `size`.  A variable opening angle has its default.

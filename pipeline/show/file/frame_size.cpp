@@ -53,7 +53,9 @@ Projection resized(const Projection& projection, const std::string& size, const 
     if (thousands == 1 || thousands == 2 || thousands == 4 || thousands == 8)
       pixels = thousands * 1024;
   }
-  const int most = kLargest / traits.in_width;
+  // A fisheye is higher than wide where its pixels are wider than high.
+  const double high = std::max(1.0, static_cast<double>(rows(projection)) / columns(projection));
+  const int most = static_cast<int>(kLargest / high) / traits.in_width;
   if (pixels < kSmallest || pixels > most || (traits.even && pixels % 2 != 0)) {
     constexpr int kEight = 8192;
     const bool faces = traits.in_width > 1;

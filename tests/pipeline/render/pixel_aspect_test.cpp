@@ -23,7 +23,7 @@ std::vector<Projection> anamorphic(int width, int height, double aspect) {
 LayeredFloatFrame frame_in(const Projection& projection) {
   Show show = rich_show(projection);
   show.titles.clear();
-  show.point_spread.min_sigma = show.point_spread.max_sigma = 4 * kDegree;
+  show.point_spread.min_sigma = show.point_spread.max_sigma = 10 * kDegree;
   show.output.data.mattes = true;
   LayeredFloatFrame frame(kAllLayers, mattes_of(show));
   Renderer(show, 1).render(frame_state(show, 0), frame);
@@ -61,7 +61,7 @@ void expect_same(const std::vector<float>& a, const std::vector<float>& b,
 // A pixel twice as wide as high is the mean of two, in the picture, in layers and in mattes.
 TEST(PixelAspectFrames, HavePairsOfSquarePixels) {
   for (const auto& [all, across, down] :
-       {std::tuple{anamorphic(72, 144, 2), 2, 1}, std::tuple{anamorphic(144, 72, 0.5), 1, 2}})
+       {std::tuple{anamorphic(40, 72, 2), 2, 1}, std::tuple{anamorphic(72, 40, 0.5), 1, 2}})
     for (const Projection& p : all) {
       if (traits_of(p).is_dome) continue;  // whose rim is another, below
       LayeredFloatFrame wide = frame_in(p);
@@ -79,22 +79,22 @@ TEST(PixelAspectFrames, HavePairsOfSquarePixels) {
 
 // At the rim of a fisheye's circle, pixels whose middle lies beyond it are black.
 TEST(PixelAspectFrames, OfAFisheyeEndAtItsCircle) {
-  const Projection p = Fisheye{72, 144, 2.5, 0.25, 2}, square = Fisheye{144, 144, 2.5, 0.25};
+  const Projection p = Fisheye{36, 72, 2.5, 0.25, 2}, square = Fisheye{72, 72, 2.5, 0.25};
   const auto wide = frame_in(p).picture.pixels,
-             pairs = means(frame_in(square).picture.pixels, 144, 3, 2, 1);
+             pairs = means(frame_in(square).picture.pixels, 72, 3, 2, 1);
   int shown = 0;
-  for (int row = 0; row < 144; ++row) {
+  for (int row = 0; row < 72; ++row) {
     const ColumnRange inside = inside_columns(p, row);
-    for (int column = 0; column < 72; ++column) {
+    for (int column = 0; column < 36; ++column) {
       const bool in = column >= inside.first && column <= inside.last;
       shown += in ? 1 : 0;
       for (int c = 0; c < 3; ++c) {
-        const auto at = static_cast<std::size_t>(3 * (72 * row + column) + c);
+        const auto at = static_cast<std::size_t>(3 * (36 * row + column) + c);
         EXPECT_NEAR(wide[at], in ? pairs[at] : 0, 1e-5 * (1 + pairs[at])) << row << " " << column;
       }
     }
   }
-  EXPECT_NEAR(shown, 3.14159 / 4 * 72 * 144, 100);
+  EXPECT_NEAR(shown, 3.14159 / 4 * 36 * 72, 40);
 }
 
 // The mean difference of a frame from the means of blocks of a finer one of square pixels, in parts
@@ -110,14 +110,15 @@ double off_from_fine(const Projection& p, int across, int down) {
   return off / static_cast<double>(exact.size()) / mean_of(exact);
 }
 
-// Pixels that are drawn as they are, since they are nearly square, are as right as square ones.
+// Pixels that are drawn as they are, since they are nearly square, are as right as square ones, of
+// which a frame of 28 x 18 errs by 0.0609, 0.0599 and 0.1343 of its mean: one sample a pixel meets a
+// disc's inner rings, and a circle ends within pixels.
 TEST(PixelAspectFrames, OfNearlySquarePixelsAreAsRightAsThoseOfSquareOnes) {
-  for (const Projection& p : anamorphic(44, 36, 4. / 3)) {
+  const double usual[] = {0.0609, 0.0599, 0.1343};
+  const double* most = usual;
+  for (const Projection& p : anamorphic(28, 24, 4. / 3)) {
     EXPECT_EQ(parts_nearly_square(p).across * parts_nearly_square(p).down, 1);
-    const Projection square = with_sides(with_pixel_aspect(p, 1), 44, 27);
-    const double off = off_from_fine(p, 8, 6), usual = off_from_fine(square, 8, 8);
-    EXPECT_LT(off, 1.3 * usual) << projection_name(p);
-    RecordProperty(std::string(projection_name(p)), std::to_string(off));
+    EXPECT_LT(off_from_fine(p, 8, 6), 1.03 * *most++) << projection_name(p);
   }
 }
 

@@ -35,6 +35,19 @@ TEST(FrameSize, IsByNameOrByPixels) {
     EXPECT_THROW(resized(Stereographic{16, 16, 1.5}, text), InputError) << text;
 }
 
+// A fisheye of wide pixels is higher than wide.
+TEST(FrameSize, KeepsTheAspectOfPixels) {
+  const Projection fisheye = Fisheye{100, 200, 3, 0.5, 2};
+  for (const char* text : {"300", "300x600"}) {
+    EXPECT_EQ(columns(resized(fisheye, text)), 300) << text;
+    EXPECT_EQ(rows(resized(fisheye, text)), 600) << text;
+    EXPECT_EQ(pixel_aspect(resized(fisheye, text)), 2) << text;
+  }
+  for (const char* text : {"8193", "300x601"})
+    EXPECT_THROW(resized(fisheye, text), InputError) << text;
+  EXPECT_EQ(pixel_aspect(resized(Rectilinear{16, 16, 1, 0.9}, "720x480")), 0.9);
+}
+
 TEST(FrameSize, IsCalledAsItsUserKnowsIt) {
   const auto message = [](const auto&... name) {
     return message_of([&] { (void)resized(Domemaster{16}, "15", name...); });

@@ -73,6 +73,8 @@ TEST_F(ShowProjections, PixelsMayBeWiderThanHigh) {
   // The circle of a fisheye is round on the screen.
   const std::string fisheye = "camera: {projection: fisheye}\noutput: {pixel_aspect: 2}\n";
   EXPECT_EQ(rows(with("size: [500, 1000]\n" + fisheye).projection), 1000);
+  EXPECT_EQ(rows(with("size: 500\n" + fisheye).projection), 1000);
+  EXPECT_EQ(rows(with(fisheye).projection), 8192);
 }
 
 // One camera serves all images for an audience.
@@ -99,6 +101,8 @@ TEST_F(ShowErrorsInProjections, AreToldWithTheirPlace) {
       {"size: [100, 201]\ncamera: {projection: fisheye}\noutput: {pixel_aspect: 2}",
        "3:7: size must be at most as high as wide (the circle of a fisheye touches both sides, "
        "which are 200 pixels), got [100, 201]"},
+      {"size: 8193\ncamera: {projection: fisheye}\noutput: {pixel_aspect: 2}",
+       "3:7: size must be at most 8192 (pixels), got 8193"},
       {"output: {pixel_aspect: 16:11}",
        "3:24: output.pixel_aspect goes with the projections fisheye, stereographic and "
        "rectilinear; the pixels of a domemaster are square"},
