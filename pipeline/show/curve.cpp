@@ -95,9 +95,7 @@ double eased(Ease ease, double x) {
 }
 
 double largest(const Curve& curve) {
-  return std::max_element(curve.keys.begin(), curve.keys.end(),
-                          [](const CurveKey& a, const CurveKey& b) { return a.value < b.value; })
-      ->value;
+  return std::ranges::max_element(curve.keys, {}, &CurveKey::value)->value;
 }
 
 double smooth_step(double t) {

@@ -53,9 +53,8 @@ bool is_data_name(const std::string& layer) {
       "crypto",  "worldpoint", "pointworld",  "denoising",  "worldpos",
       "tangent", "binormal",   "barycentric", "multimatte", "sample count"};
   const auto has = [&name](std::string_view part) { return name.find(part) != std::string::npos; };
-  return std::find(kNames.begin(), kNames.end(), name) != kNames.end() ||
-         std::any_of(kParts.begin(), kParts.end(), has) || name.ends_with("_id") ||
-         name.ends_with("objectid") || name.ends_with("materialid");
+  return std::ranges::find(kNames, name) != kNames.end() || std::ranges::any_of(kParts, has) ||
+         name.ends_with("_id") || name.ends_with("objectid") || name.ends_with("materialid");
 }
 
 int channel_of(const Layer& layer, std::initializer_list<const char*> names) {
@@ -78,7 +77,7 @@ std::optional<PictureChannels> colours_of(const Layer& layer) {
   const bool none = found.rgb == std::array{-1, -1, -1};
   if (none && grey >= 0 && channel_of(layer, {"x", "z", "ry", "by", "u", "v"}) < 0)
     found.rgb.fill(grey);
-  if (std::count(found.rgb.begin(), found.rgb.end(), -1)) return std::nullopt;
+  if (std::ranges::count(found.rgb, -1)) return std::nullopt;
   return found;
 }
 
@@ -129,14 +128,14 @@ class Layers {
   static bool strip_other_views(std::string& layer, const std::vector<std::string>& views) {
     std::string rest = layer;
     const std::string last = cut_last(rest);
-    const auto found = std::find(views.begin(), views.end(), last);
+    const auto found = std::ranges::find(views, last);
     if (last.empty() || found == views.end()) return true;
     layer = rest;
     return found == views.begin();
   }
   Layer& at(int part, const std::string& name) {
     const auto same = [&](const Layer& l) { return l.part == part && l.name == name; };
-    const auto found = std::find_if(all.begin(), all.end(), same);
+    const auto found = std::ranges::find_if(all, same);
     if (found != all.end()) return *found;
     all.push_back({part, name, {}});
     return all.back();
@@ -177,7 +176,7 @@ PictureChannels picture_channels(const std::vector<OIIO::ImageSpec>& parts) {
   if (best.empty()) {
     for (const OIIO::ImageSpec& spec : parts)
       names.insert(names.end(), spec.channelnames.begin(), spec.channelnames.end());
-    if (std::all_of(parts.begin(), parts.end(), [](const auto& spec) { return spec.deep; }))
+    if (std::ranges::all_of(parts, [](const auto& spec) { return spec.deep; }))
       refuse_layers("the image has deep pixels", names, "");
     refuse_layers("none of its channels are colours", names,
                   "; a picture has R, G, B, alone or in a layer, or Y");

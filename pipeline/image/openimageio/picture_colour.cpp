@@ -62,8 +62,7 @@ void check_primaries(const Places& xy, const std::string& from) {
                  vx = xy[2 * c] - xy[2 * a], vy = xy[2 * c + 1] - xy[2 * a + 1];
     return ux * vy - uy * vx;
   };
-  const bool near =
-      std::all_of(xy.begin(), xy.end(), [](double v) { return std::abs(v) <= kFarthest; });
+  const bool near = std::ranges::all_of(xy, [](double v) { return std::abs(v) <= kFarthest; });
   const double whole = near ? area(0, 1, 2) : 0;
   const auto part = [&](std::size_t a, std::size_t b) { return area(a, b, 3) / whole; };
   if (std::abs(whole) < kLeastArea || xy[7] < kLeastWhite || part(0, 1) < kLeastArea ||
@@ -139,8 +138,8 @@ PictureColour::PictureColour(const PictureClaims& claims, const std::string& pro
 }
 
 void PictureColour::take_code_points(const CodePoints& code) {
-  const auto* primaries = std::find_if(kCodedPrimaries.begin(), kCodedPrimaries.end(),
-                                       [&](const auto& p) { return p.first == code.primaries; });
+  const auto* primaries = std::ranges::find_if(
+      kCodedPrimaries, [&](const auto& p) { return p.first == code.primaries; });
   if (code.matrix != 0 || code.full_range != 1)
     refuse(fmt::format("its cICP says that its codes are not full-range RGB ({}/{}/{}/{})",
                        code.primaries, code.transfer, code.matrix, code.full_range));

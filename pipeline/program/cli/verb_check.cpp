@@ -21,8 +21,8 @@ namespace {
 // Says whether a show sees the sky of a region, from there or from inside the hole.
 bool is_seen(const Show& show, const ShowSurvey& survey, Region region) {
   if (show.spacetime.is<Wormhole>()) return true;
-  return std::any_of(survey.regions.begin(), survey.regions.end(),
-                     [region](Region r) { return r == region || r == Region::kII; });
+  return std::ranges::any_of(survey.regions,
+                             [region](Region r) { return r == region || r == Region::kII; });
 }
 
 // Loads all that the frames will read, since a file may be damaged though none of the measured
@@ -83,8 +83,7 @@ void check(const std::string& file, const std::string& out, bool json) {
   report.light = survey_light(show, renderer, grade);
   for (const ShowWarning& warning : light_warnings(show, renderer, report.light))
     report.warnings.push_back(warning);
-  std::stable_sort(report.warnings.begin(), report.warnings.end(),
-                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  std::ranges::stable_sort(report.warnings, {}, &ShowWarning::time_s);
   if (grade) report.display = grade->display(), report.view = grade->view();
   report.time = time_to_render(show, grade);
   if (const std::string lack = lack_of_room(report); !lack.empty())

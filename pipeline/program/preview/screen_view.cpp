@@ -37,10 +37,9 @@ M33d dome_around(const M33d& flat_axes) {
 // Says whether the camera of a segment is given by angles and not by a target.
 bool turns_by_angles(const Segment& segment) {
   return std::holds_alternative<EulerAngles>(segment.camera.attitude) ||
-         std::any_of(segment.attitudes.begin(), segment.attitudes.end(),
-                     [](const AttitudeKey& key) {
-                       return std::holds_alternative<EulerAngles>(key.attitude);
-                     });
+         std::ranges::any_of(segment.attitudes, [](const AttitudeKey& key) {
+           return std::holds_alternative<EulerAngles>(key.attitude);
+         });
 }
 
 // Returns the axes for the new projection, as columns in the tetrad.

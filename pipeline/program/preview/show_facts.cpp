@@ -221,8 +221,7 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
   } catch (const RenderStopped&) {
     return {};
   }
-  std::stable_sort(warnings.begin(), warnings.end(),
-                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  std::ranges::stable_sort(warnings, {}, &ShowWarning::time_s);
   Json list = Json::array();
   for (const ShowWarning& warning : warnings) list.push_back(warning_json(warning));
   return page_json({{"done", true}, {"warnings", list}});

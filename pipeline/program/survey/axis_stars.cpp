@@ -86,7 +86,7 @@ void AxisStars::read(SkyRegion region) {
     classes.back().stars.push_back({star, window});
   }
   for (Class& each : classes)
-    std::sort(each.stars.begin(), each.stars.end(), [](const Candidate& a, const Candidate& b) {
+    std::ranges::sort(each.stars, [](const Candidate& a, const Candidate& b) {
       return a.star.direction.v.z < b.star.direction.v.z;
     });
   names_[region] = std::move(catalogue.names);
@@ -177,8 +177,7 @@ std::string AxisStars::name_of(const Passage& passage) const {
 
 std::vector<ShowWarning> AxisStars::warnings() const {
   std::vector<Passage> brightest = passages_;
-  std::sort(brightest.begin(), brightest.end(),
-            [](const Passage& a, const Passage& b) { return a.light > b.light; });
+  std::ranges::sort(brightest, std::ranges::greater(), &Passage::light);
   // More are looked at than may be told, because a passage that is bright by its estimate may turn
   // out not to blind.
   brightest.resize(std::min(brightest.size(), 2 * kMostWarnings));
@@ -205,8 +204,7 @@ std::vector<ShowWarning> AxisStars::warnings() const {
                                  "star of magnitude {:.3g}; {}",
                                  name_of(passage), bright, cure)});
   }
-  std::sort(found.begin(), found.end(),
-            [](const ShowWarning& a, const ShowWarning& b) { return a.frame < b.frame; });
+  std::ranges::sort(found, {}, &ShowWarning::frame);
   return found;
 }
 

@@ -59,8 +59,7 @@ void BlobLayer::sort_caps() {
   const auto key = [](const CapBlob& b) {
     return std::tuple(b.first_row / kBandRows, b.y, b.x, b.sigma, b.rgb[0], b.rgb[1], b.rgb[2]);
   };
-  std::sort(caps_.begin(), caps_.end(),
-            [&key](const CapBlob& a, const CapBlob& b) { return key(a) < key(b); });
+  std::ranges::sort(caps_, [&key](const CapBlob& a, const CapBlob& b) { return key(a) < key(b); });
   part_wide_ellipses();
 }
 

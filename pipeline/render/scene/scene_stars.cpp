@@ -25,8 +25,7 @@ SceneStars::SceneStars(const std::vector<Star>& stars) {
     return stars[a].v_magnitude < stars[b].v_magnitude;
   };
   // Catalogues are sorted as a rule, so that the test saves time.
-  if (!std::is_sorted(order.begin(), order.end(), brighter))
-    std::stable_sort(order.begin(), order.end(), brighter);
+  if (!std::ranges::is_sorted(order, brighter)) std::ranges::stable_sort(order, brighter);
   reserve(stars.size());
   for (const std::uint32_t k : order) {
     const Star& s = stars[k];
@@ -37,9 +36,7 @@ SceneStars::SceneStars(const std::vector<Star>& stars) {
 }
 
 SceneStars::SceneStars(std::vector<SceneStar> stars) {
-  std::stable_sort(stars.begin(), stars.end(), [](const SceneStar& a, const SceneStar& b) {
-    return a.magnitude < b.magnitude;
-  });
+  std::ranges::stable_sort(stars, {}, &SceneStar::magnitude);
   reserve(stars.size());
   for (const SceneStar& s : stars) {
     push_back(s.direction.v, s.magnitude, s.flux, s.temperature);

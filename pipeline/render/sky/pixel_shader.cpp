@@ -52,9 +52,7 @@ bool PixelShader::is_grid(SkyRegion sky) const {
 
 void PixelShader::find_grids(const ViewRayBatch& rays, const double* angle, int count, bool fine,
                              GridSamples& grid) const {
-  if (std::none_of(kEverySky.begin(), kEverySky.end(),
-                   [this](SkyRegion sky) { return is_grid(sky); }))
-    return;
+  if (std::ranges::none_of(kEverySky, [this](SkyRegion sky) { return is_grid(sky); })) return;
   ViewRayBatch::Column<double> x, y, z, footprint, reach;
   int places = 0;
   for (int k = 0; k < count; ++k) {
@@ -99,7 +97,7 @@ double PixelShader::amplification(const CameraDirection& n, double pixel_angle) 
 }
 
 bool PixelShader::is_darkened(SkyRegion sky, const CameraDirection& n) const {
-  return std::any_of(darkened_.begin(), darkened_.end(), [&](const DarkenedCap& cap) {
+  return std::ranges::any_of(darkened_, [&](const DarkenedCap& cap) {
     return cap.sky == sky && (n.v - cap.centre.v).length2() <= cap.chord2;
   });
 }

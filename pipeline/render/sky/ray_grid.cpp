@@ -138,10 +138,10 @@ bool RayGrid::is_near_special(int row, int column) const {
     if (special_.empty()) return false;
     const CameraDirection n = direction_at(projection_, {column * kStep + 1.0, row * kStep + 1.0});
     const double reach = kSpecialCells * kStep * largest_pixel_angle(projection_);
-    return std::any_of(special_.begin(), special_.end(),
-                       [&](const CameraDirection& s) { return (s.v - n.v).length() < reach; });
+    return std::ranges::any_of(
+        special_, [&](const CameraDirection& s) { return (s.v - n.v).length() < reach; });
   }
-  return std::any_of(special_pixels_.begin(), special_pixels_.end(), [&](const PixelPosition& p) {
+  return std::ranges::any_of(special_pixels_, [&](const PixelPosition& p) {
     return std::hypot(p.i / kStep - column, p.j / kStep - row) < kSpecialCells;
   });
 }
@@ -163,16 +163,15 @@ RayGrid::Cell RayGrid::classified(int row, int column) const {
   const std::array<std::size_t, 4> corners{
       at(row + kMargin, column + kMargin), at(row + kMargin, column + kMargin + 1),
       at(row + kMargin + 1, column + kMargin), at(row + kMargin + 1, column + kMargin + 1)};
-  if (std::all_of(corners.begin(), corners.end(),
-                  [&](std::size_t n) { return sky_[n] == kDark && edge_[n] > kDarkCells; }))
+  if (std::ranges::all_of(corners,
+                          [&](std::size_t n) { return sky_[n] == kDark && edge_[n] > kDarkCells; }))
     return cell;
   cell.kind = Kind::kExact;
   if (sky_[corners[0]] >= kDark || !is_smooth(row, column)) return cell;
   cell.kind = Kind::kSmooth;
   cell.sky = static_cast<SkyRegion>(sky_[corners[0]]);
   cell.plain = shader_->sampler(cell.sky) != nullptr &&
-               std::all_of(corners.begin(), corners.end(),
-                           [&](std::size_t n) { return filters_[n].is_plain(); });
+               std::ranges::all_of(corners, [&](std::size_t n) { return filters_[n].is_plain(); });
   return cell;
 }
 

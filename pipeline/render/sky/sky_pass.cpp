@@ -15,8 +15,7 @@ constexpr int kSmallest = 64;
 static_assert(FormulaShader::kSide == kGridStep);
 
 bool has_backgrounds(const FrameScene& scene) {
-  return std::any_of(scene.background.begin(), scene.background.end(),
-                     [](const auto& light) { return light.has_value(); });
+  return std::ranges::any_of(scene.background, [](const auto& light) { return light.has_value(); });
 }
 
 }  // namespace

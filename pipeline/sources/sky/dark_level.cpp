@@ -71,8 +71,7 @@ const Patch& at_part(const std::vector<Patch>& patches, double part) {
 
 DarkLevel dark_level(const SkyMap& map) {
   std::vector<Patch> patches = patches_of(map);
-  std::stable_sort(patches.begin(), patches.end(),
-                   [](const Patch& a, const Patch& b) { return a.light < b.light; });
+  std::ranges::stable_sort(patches, {}, &Patch::light);
   const Patch& darkest = at_part(patches, kDarkest);
   // An even sky has no dark parts, and without a level nothing is taken away from it.
   if (darkest.light > kEven * at_part(patches, 0.5).light) return {};
@@ -85,9 +84,7 @@ double light_per_luminance(const SkyMap& map) {
   // these is taken.
   std::vector<Patch> patches = patches_of(map);
   std::erase_if(patches, [](const Patch& patch) { return !(patch.luminance > 0); });
-  const auto darkest =
-      std::min_element(patches.begin(), patches.end(),
-                       [](const Patch& a, const Patch& b) { return a.light < b.light; });
+  const auto darkest = std::ranges::min_element(patches, {}, &Patch::light);
   return darkest == patches.end() ? 0 : darkest->light / darkest->luminance;
 }
 

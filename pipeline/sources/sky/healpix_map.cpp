@@ -158,8 +158,7 @@ double HealpixMap::at(const V3d& direction) const {
 int healpix_face(int nside) { return std::clamp(4 * nside, 4, kLargestFaceOfHealpix); }
 
 double healpix_unit(const HealpixMap& map, double luminance) {
-  return sky_unit(luminance *
-                  std::max(0.0f, *std::max_element(map.values().begin(), map.values().end())));
+  return sky_unit(luminance * std::max(0.0f, *std::ranges::max_element(map.values())));
 }
 
 void paint_healpix(const HealpixMap& map, SkyFrame frame, double luminance,

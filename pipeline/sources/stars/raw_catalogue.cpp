@@ -48,8 +48,7 @@ constexpr std::uint32_t kGone = static_cast<std::uint32_t>(-1);
 void move_names(std::vector<StarName>& names, const std::vector<std::uint32_t>& index_of) {
   for (StarName& name : names) name.star = index_of[name.star];
   std::erase_if(names, [](const StarName& name) { return name.star == kGone; });
-  std::stable_sort(names.begin(), names.end(),
-                   [](const StarName& a, const StarName& b) { return a.star < b.star; });
+  std::ranges::stable_sort(names, {}, &StarName::star);
 }
 
 }  // namespace
@@ -83,7 +82,7 @@ void sort_by_brightness(RawCatalogue& catalogue) {
   // Sorting pairs of magnitude and index is three times as fast as sorting the stars.
   std::vector<std::pair<float, std::uint32_t>> order(count);
   for (std::uint32_t i = 0; i < count; ++i) order[i] = {catalogue.stars[i].v, i};
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::vector<CatalogueStar> sorted;
   sorted.reserve(count);
   std::vector<std::uint32_t> index_of(count);

@@ -160,7 +160,7 @@ class DeliveryChecker {
     for (const std::string& path : there_)
       if (path != kChecksums && path != kUnfinished && !named.contains(path) && !number_of(path))
         faults_.extra_files.push_back(path);
-    std::sort(faults_.missing_frames.begin(), faults_.missing_frames.end());
+    std::ranges::sort(faults_.missing_frames);
   }
 
   void check_sums() {
@@ -199,8 +199,7 @@ class DeliveryChecker {
       const int number = number_of(frames[k]->path);
       if (findings[k] == FrameFinding::kOther) faults_.other_frames.push_back(number);
       if (findings[k] == FrameFinding::kDamaged &&
-          std::find(faults_.damaged_frames.begin(), faults_.damaged_frames.end(), number) ==
-              faults_.damaged_frames.end())
+          std::ranges::find(faults_.damaged_frames, number) == faults_.damaged_frames.end())
         faults_.damaged_frames.push_back(number);
     }
     for (auto* numbers : {&faults_.damaged_frames, &faults_.repeated_frames, &faults_.other_frames})

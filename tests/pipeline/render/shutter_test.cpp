@@ -26,9 +26,7 @@ double light_of_frame(const HalfFrame& frame, const Projection& p) {
   return sum;
 }
 
-double brightest(const HalfFrame& frame) {
-  return *std::max_element(frame.pixels.begin(), frame.pixels.end());
-}
+double brightest(const HalfFrame& frame) { return *std::ranges::max_element(frame.pixels); }
 
 HalfFrame frame_numbered(const Show& show, int frame, StageTimes* times = nullptr) {
   return Renderer(show, 2).render(frame_state(show, frame), times);

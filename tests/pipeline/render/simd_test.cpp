@@ -184,8 +184,7 @@ TEST(Simd, IsTriedOnScenesThatDiffer) {
   std::vector<Bytes> frames;
   for (const auto& [name, show] : scenes(Domemaster{64})) {
     const HalfFrame frame = Renderer(show, 2).render(frame_state(show, 0));
-    EXPECT_GT(std::count_if(frame.pixels.begin(), frame.pixels.end(),
-                            [](Imath::half value) { return value > 0; }),
+    EXPECT_GT(std::ranges::count_if(frame.pixels, [](Imath::half value) { return value > 0; }),
               1000)
         << name;
     Bytes bytes;

@@ -23,10 +23,9 @@ std::vector<FrameErrorRow> finer_and_finer(const std::string& scene) {
 }
 
 const FrameErrorRow& error_row(std::string_view scene, std::string_view part_of_setting) {
-  const auto found =
-      std::find_if(quick_errors().begin(), quick_errors().end(), [&](const FrameErrorRow& row) {
-        return row.scene == scene && row.setting.find(part_of_setting) != std::string::npos;
-      });
+  const auto found = std::ranges::find_if(quick_errors(), [&](const FrameErrorRow& row) {
+    return row.scene == scene && row.setting.find(part_of_setting) != std::string::npos;
+  });
   EXPECT_NE(found, quick_errors().end()) << scene << ", " << part_of_setting;
   return *found;
 }

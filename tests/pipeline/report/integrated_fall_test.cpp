@@ -56,9 +56,7 @@ TEST(FreeFall, AParabolaTurnsAtItsPericentre) {
   const double l = 5, pericentre = 1 / (0.25 - std::sqrt(1.0 / 16 - 1 / (l * l)));
   for (const FallMethod method : kMethods) {
     const auto states = integrate_fall(falling(30, 1, l), evenly(160, 16000), method, 1e-11);
-    const auto nearest =
-        std::min_element(states.begin(), states.end(),
-                         [](const FallState& a, const FallState& b) { return a.r < b.r; });
+    const auto nearest = std::ranges::min_element(states, {}, &FallState::r);
     EXPECT_NEAR(nearest->r, pericentre, 1e-5);  // the states are 0.01 M apart
     EXPECT_GT(states.back().r, pericentre + 5) << "on its way out";
   }

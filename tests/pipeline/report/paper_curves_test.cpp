@@ -15,21 +15,18 @@ namespace {
 constexpr double kHalfTurn = std::numbers::pi;
 
 const Plot& curves_of(const std::vector<NamedPlot>& figures, std::string_view name) {
-  return std::find_if(figures.begin(), figures.end(),
-                      [&](const NamedPlot& f) { return f.name == name; })
-      ->plot;
+  return std::ranges::find_if(figures, [&](const NamedPlot& f) { return f.name == name; })->plot;
 }
 
 const PlotCurve& curve_of(const Plot& plot, std::string_view name) {
-  return *std::find_if(plot.curves.begin(), plot.curves.end(),
-                       [&](const PlotCurve& c) { return c.name == name; });
+  return *std::ranges::find_if(plot.curves, [&](const PlotCurve& c) { return c.name == name; });
 }
 
 double near(const PlotCurve& curve, double x) {
-  return std::min_element(curve.points.begin(), curve.points.end(),
-                          [&](const PlotPoint& a, const PlotPoint& b) {
-                            return std::abs(a.x - x) < std::abs(b.x - x);
-                          })
+  return std::ranges::min_element(curve.points,
+                                  [&](const PlotPoint& a, const PlotPoint& b) {
+                                    return std::abs(a.x - x) < std::abs(b.x - x);
+                                  })
       ->y;
 }
 

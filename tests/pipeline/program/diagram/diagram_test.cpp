@@ -19,10 +19,9 @@ class Paths : public ObservedShow {
 };
 
 const PathPoint& at_radius(const Path& path, double r) {
-  return *std::min_element(path.points.begin(), path.points.end(),
-                           [r](const PathPoint& a, const PathPoint& b) {
-                             return std::abs(a.r - r) < std::abs(b.r - r);
-                           });
+  return *std::ranges::min_element(path.points, [r](const PathPoint& a, const PathPoint& b) {
+    return std::abs(a.r - r) < std::abs(b.r - r);
+  });
 }
 
 TEST_F(Paths, AFallCrossesTheHorizonAtTheMiddleOfItsLine) {
@@ -100,8 +99,8 @@ TEST_F(Paths, SegmentsThatDissolveOverlapInTimeAndBothReachTheirEnds) {
   const Path p = path(
       "  - {duration_s: 6, trajectory: {type: infall, from_r: 10, to_r: 3}}\n"
       "  - {duration_s: 8, dissolve_s: 2, trajectory: {type: circular, r: 9}}\n");
-  const auto second = std::find_if(p.points.begin(), p.points.end(),
-                                   [](const PathPoint& q) { return q.segment == 1; });
+  const auto second =
+      std::ranges::find_if(p.points, [](const PathPoint& q) { return q.segment == 1; });
   ASSERT_NE(second, p.points.end());
   EXPECT_NEAR((second - 1)->time_s, 6, 1e-7);  // a tick before the end
   EXPECT_NEAR((second - 1)->r, 3, 1e-7);

@@ -22,7 +22,7 @@ DrawnBlobs drawn(const BlobLayer& layer, const Projection& p) {
 }
 
 void redraw(DrawnBlobs& image, const BlobLayer& layer) {
-  std::fill(image.rgb.begin(), image.rgb.end(), 0.0f);
+  std::ranges::fill(image.rgb, 0.0f);
   draw_onto(image, layer);
 }
 
@@ -51,9 +51,7 @@ double flux_of(const DrawnBlobs& image) {
   return flux;
 }
 
-float peak_of(const DrawnBlobs& image) {
-  return *std::max_element(image.rgb.begin(), image.rgb.end());
-}
+float peak_of(const DrawnBlobs& image) { return *std::ranges::max_element(image.rgb); }
 
 float largest_difference(const DrawnBlobs& a, const DrawnBlobs& b) {
   float largest = 0;
@@ -74,7 +72,7 @@ Brought brought(const StarImage& image, const Projection& p, const PointSpread& 
   SplatBuffer buffer;
   layer.start_buffer(buffer);
   for (int band = first; band <= last; ++band) {
-    std::fill(rgb.begin(), rgb.end(), 0.0f);
+    std::ranges::fill(rgb, 0.0f);
     layer.draw_band(band, buffer, rgb.data());
     for (int k = 0; k < width * kBandRows; ++k) {
       const double value = rgb[3 * static_cast<std::size_t>(k)];

@@ -63,9 +63,7 @@ const std::string kAssets = source_file("shows/assets/");
 TEST(Stars, ToTheNakedEyesLimitAreItsSky) {
   const StarCatalogue catalogue = read_star_catalogue(kAssets + "stars_to_9.stars", 6.5);
   EXPECT_EQ(catalogue.stars.size(), 8883u);
-  EXPECT_TRUE(
-      std::is_sorted(catalogue.stars.begin(), catalogue.stars.end(),
-                     [](const Star& a, const Star& b) { return a.v_magnitude < b.v_magnitude; }));
+  EXPECT_TRUE(std::ranges::is_sorted(catalogue.stars, {}, &Star::v_magnitude));
   for (const auto& [name, ra, dec] :
        {std::tuple("Sirius", 101.287155, -16.716116), std::tuple("Vega", 279.234735, 38.783689),
         std::tuple("alpha Ori", 88.792939, 7.407064)}) {
