@@ -10,51 +10,16 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 
+#include "pipeline/base/child_program.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/talk.h"
 
 namespace domefall {
 namespace {
 
-constexpr int kCannotStart = 127;
 constexpr std::size_t kMostSaidBytes = 1 << 16;
-
-// Between fork() and exec() nothing may be called that could take a lock.
-[[noreturn]] void become_worker(char* const* arguments, char* const* environment,
-                                const WorkerProcess::Way& way, int talk, int failed, pid_t parent) {
-  if (way.ends_with_us) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) _exit(kCannotStart);  // it has died before it was asked for
-  }
-  if (way.own_session) setsid();
-  for (const int number : {SIGINT, SIGHUP, SIGUSR1, SIGCHLD, SIGPIPE, SIGXFSZ})
-    std::signal(number, SIG_DFL);
-  std::signal(SIGTERM, way.ignores_term ? SIG_IGN : SIG_DFL);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  const int input = open("/dev/null", O_RDONLY);
-  dup2(input, STDIN_FILENO);
-  if (input != STDIN_FILENO) close(input);
-  dup2(talk, STDOUT_FILENO);
-  dup2(talk, STDERR_FILENO);
-  execvpe(arguments[0], arguments, environment);
-  const int error = errno;
-  (void)!write(failed, &error, sizeof error);
-  _exit(kCannotStart);
-}
-
-// Returns the texts as a program takes them, with a null at the end.
-std::vector<char*> pointers_to(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
 
 }  // namespace
 
@@ -67,36 +32,30 @@ std::string WorkerEnd::text() const {
   return signal != 0 ? "killed by " + signal_name(signal) : fmt::format("exit code {}", code);
 }
 
-WorkerProcess::WorkerProcess(std::vector<std::string> arguments, const Way& way) : log_(way.log) {
-  const std::vector<char*> words = pointers_to(arguments);
-  std::vector<std::string> settings = way.environment;
-  const std::vector<char*> given = pointers_to(settings);
-  char* const* const variables = settings.empty() ? environ : given.data();
-  std::array<int, 2> talk{}, failed{};
-  const bool talks = pipe2(talk.data(), O_CLOEXEC) == 0;
-  if (!talks || pipe2(failed.data(), O_CLOEXEC) != 0) {
-    const std::string why = std::strerror(errno);
-    if (talks) close(talk[0]), close(talk[1]);
-    throw TemporaryError(arguments.front() + ": no pipe can be made: " + why);
-  }
-  // No signal reaches the child while it still has the handlers of this process.
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  const pid_t parent = getpid();
-  process_ = fork();
-  if (process_ == 0) become_worker(words.data(), variables, way, talk[1], failed[1], parent);
-  int why = process_ < 0 ? errno : 0;
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  close(talk[1]);
-  close(failed[1]);
-  if (process_ > 0 && read(failed[0], &why, sizeof why) > 0) waitpid(process_, nullptr, 0);
-  close(failed[0]);
-  talk_ = talk[0];
+WorkerProcess::WorkerProcess(const std::vector<std::string>& arguments, const Way& way)
+    : log_(way.log) {
+  const Pipe talk(arguments.front());
+  process_ = start_program(arguments, way.environment, [&](pid_t parent) {
+    if (way.ends_with_us) {
+      prctl(PR_SET_PDEATHSIG, SIGTERM);
+      if (getppid() != parent) _exit(kCannotStart);  // it has died before it was asked for
+    }
+    if (way.own_session) setsid();
+    for (const int number : {SIGINT, SIGHUP, SIGUSR1, SIGCHLD, SIGPIPE, SIGXFSZ})
+      std::signal(number, SIG_DFL);
+    std::signal(SIGTERM, way.ignores_term ? SIG_IGN : SIG_DFL);
+    const int input = open("/dev/null", O_RDONLY);
+    dup2(input, STDIN_FILENO);
+    if (input != STDIN_FILENO) close(input);
+    dup2(talk.to, STDOUT_FILENO);
+    dup2(talk.to, STDERR_FILENO);
+  });
+  close(talk.to);
+  talk_ = talk.from;
   fcntl(talk_, F_SETFL, O_NONBLOCK);
-  if (why == 0) return;
+  if (process_ > 0) return;
   close(talk_);
-  throw TemporaryError(arguments.front() + ": cannot be started: " + std::strerror(why));
+  throw TemporaryError(arguments.front() + ": cannot be started: " + std::strerror(-process_));
 }
 
 WorkerProcess::~WorkerProcess() {

@@ -33,7 +33,7 @@ class WorkerProcess {
 
   // Starts a program that the PATH finds, with no standard input.  Throws TemporaryError if it
   // cannot be started.
-  WorkerProcess(std::vector<std::string> arguments, const Way& way);
+  WorkerProcess(const std::vector<std::string>& arguments, const Way& way);
   // Tells the program to end, and does not wait for it.
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;
@@ -72,7 +72,6 @@ class WorkerProcess {
 WorkerEnd run_program(const std::vector<std::string>& arguments, std::string& said,
                       bool ignores_term = false, std::vector<std::string> environment = {});
 
-// Returns the name of a signal, such as SIGKILL.
 std::string signal_name(int signal);
 
 }  // namespace domefall

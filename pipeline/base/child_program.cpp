@@ -18,19 +18,6 @@
 namespace domefall {
 namespace {
 
-constexpr int kNotStarted = 127;
-
-struct Ends {
-  int from = -1, to = -1;
-
-  explicit Ends(const std::string& program) {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0)
-      throw TemporaryError(program + ": no pipe can be made: " + std::strerror(errno));
-    from = ends[0], to = ends[1];
-  }
-};
-
 struct Drained {
   std::string text;
   std::uint64_t bytes = 0;  // of all that came
@@ -62,32 +49,51 @@ std::string last_lines(std::string text) {
   return begin == std::string::npos || begin == 0 ? text : text.substr(begin + 1);
 }
 
-struct Streams {
-  int in, out, error, failed;
-};
-
-// Becomes the program, which is killed with the parent.  posix_spawn() has no way to ask for that.
-// Between fork() and exec() nothing may be called that could take a lock.
-[[noreturn]] void become(char* const* arguments, const Streams& streams,
-                         const std::vector<int>& kept, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(kNotStarted);  // the parent died before prctl() was called
-  setpgid(0, 0);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE}) std::signal(number, SIG_DFL);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  dup2(streams.in, STDIN_FILENO);
-  dup2(streams.out, STDOUT_FILENO);
-  dup2(streams.error, STDERR_FILENO);
-  for (const int number : kept) fcntl(number, F_SETFD, 0);
-  execvp(arguments[0], arguments);
-  const int error = errno;
-  (void)!::write(streams.failed, &error, sizeof error);
-  _exit(kNotStarted);
+// Returns the texts as a program takes them, with a null at the end.
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
 }
 
 }  // namespace
+
+Pipe::Pipe(const std::string& program) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw TemporaryError(program + ": no pipe can be made: " + std::strerror(errno));
+  from = ends[0], to = ends[1];
+}
+
+// posix_spawn() has no way to tie the program's life to this one.
+pid_t start_program(std::vector<std::string> arguments, std::vector<std::string> environment,
+                    const std::function<void(pid_t)>& prepare) {
+  const std::vector<char*> words = pointers_to(arguments), settings = pointers_to(environment);
+  char* const* const variables = environment.empty() ? environ : settings.data();
+  const Pipe failed(arguments.front());
+  // No signal reaches the child while it still has the handlers of this process.
+  sigset_t all, before, none;
+  sigfillset(&all);
+  sigemptyset(&none);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const pid_t parent = getpid(), process = fork();
+  if (process == 0) {
+    prepare(parent);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    execvpe(words[0], words.data(), variables);
+    const int error = errno;
+    (void)!::write(failed.to, &error, sizeof error);
+    _exit(kCannotStart);
+  }
+  int why = process < 0 ? errno : 0;
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  close(failed.to);
+  if (process > 0 && read(failed.from, &why, sizeof why) > 0) waitpid(process, nullptr, 0);
+  close(failed.from);
+  return why == 0 ? process : -why;
+}
 
 bool ChildOutcome::good() const { return WIFEXITED(status) && WEXITSTATUS(status) == 0; }
 
@@ -103,31 +109,26 @@ std::string ChildOutcome::text() const {
 
 ChildProgram::ChildProgram(std::vector<std::string> arguments, const std::vector<int>& kept,
                            const std::string& package) {
-  const std::string& program = arguments.front();
-  std::vector<char*> pointers;
-  pointers.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  const Ends in(program), out(program), error(program), failed(program);
-  // No signal reaches the child while it still has the handlers of this process.
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  const pid_t parent = getpid();
-  process_ = fork();
-  if (process_ == 0) become(pointers.data(), {in.from, out.to, error.to, failed.to}, kept, parent);
-  int why = process_ < 0 ? errno : 0;
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  for (const int end : {in.from, out.to, error.to, failed.to}) close(end);
-  if (process_ > 0 && read(failed.from, &why, sizeof why) > 0) waitpid(process_, nullptr, 0);
-  close(failed.from);
-  if (why != 0) {
-    process_ = -1;
+  const std::string program = arguments.front();
+  const Pipe in(program), out(program), error(program);
+  process_ = start_program(std::move(arguments), {}, [&](pid_t parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(kCannotStart);  // the parent died before prctl() was called
+    setpgid(0, 0);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGPIPE})
+      std::signal(number, SIG_DFL);
+    dup2(in.from, STDIN_FILENO);
+    dup2(out.to, STDOUT_FILENO);
+    dup2(error.to, STDERR_FILENO);
+    for (const int number : kept) fcntl(number, F_SETFD, 0);
+  });
+  for (const int end : {in.from, out.to, error.to}) close(end);
+  if (process_ < 0) {
     for (const int end : {in.to, out.from, error.from}) close(end);
-    if (why == ENOENT)
+    if (process_ == -ENOENT)
       throw TemporaryError(fmt::format(
           "the program {} is not on the PATH; Debian's package {} has it", program, package));
-    throw TemporaryError(program + ": cannot be started: " + std::strerror(why));
+    throw TemporaryError(program + ": cannot be started: " + std::strerror(-process_));
   }
   input_ = in.to;
   constexpr int kPipeBytes = 1 << 20;  // what every user may have

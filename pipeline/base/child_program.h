@@ -5,10 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "pipeline/base/regular_file.h"
@@ -23,6 +23,24 @@ struct ChildOutcome {
   bool killed() const;  // by a signal
   // Says "ended with code 1" or "was ended by signal 9 (Killed)", then what the program said.
   std::string text() const;
+};
+
+// Starts a program that the PATH finds, with an argument vector and no shell.  It begins as a copy of
+// this process in which all signals are held back: prepare(parent) arranges its descriptors and
+// signals there, and may call nothing that could take a lock.  Without an `environment` (NAME=VALUE
+// each) it has that of this process.  Returns the process, or an errno with a minus.
+pid_t start_program(std::vector<std::string> arguments, std::vector<std::string> environment,
+                    const std::function<void(pid_t parent)>& prepare);
+
+// The exit code of a copy that could not become its program.
+inline constexpr int kCannotStart = 127;
+
+// A Pipe has an end to read from and one to write to, which programs that are started do not inherit.
+// Throws TemporaryError, which begins with the program's name, if none can be made.
+struct Pipe {
+  explicit Pipe(const std::string& program);
+
+  int from = -1, to = -1;
 };
 
 // Runs the program of a name that the PATH finds, with an argument vector and no shell.  Its
