@@ -11,13 +11,11 @@
 namespace domefall {
 namespace {
 
-// Adds words to a command where a value is given.
 void add_option(std::vector<std::string>& command, const std::string& name,
                 const std::string& value) {
   if (!value.empty()) command.insert(command.end(), {name, value});
 }
 
-// Adds an option of the frames, if they have it.
 void add_option_of_frames(std::vector<std::string>& command, const FarmPlan& plan,
                           const std::string& name) {
   const auto at = std::ranges::find(plan.options, name);

@@ -29,7 +29,6 @@ std::vector<std::pair<std::string, Words>> later_steps(const FarmPlan& plan);
 // lines are what lists are made of, and some shells and managers read no quotes.
 std::string shell_word(std::string_view word);
 
-// Returns the words, joined by blanks.
 std::string shell_line(const Words& words);
 
 // Throws InputError, whose message is readable, for a text that is not UTF-8 or has a control

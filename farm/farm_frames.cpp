@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "farm/plan.h"
 #include "pipeline/base/errors.h"

@@ -31,27 +31,34 @@ Json round_json(const FarmRound& round) {
   return {{"round", round.round}, {"job", round.job}, {"submitted", round.submitted}};
 }
 
+// Visits what a plan's file has by its name, but for chunks and rounds.
+template <class Plan, class Visit>
+void each_field(Plan& plan, const Visit& visit) {
+  visit("id", plan.id);
+  visit("domefall", plan.version);
+  visit("program", plan.program);
+  visit("show", plan.show);
+  visit("out", plan.out);
+  visit("frames", plan.frames);
+  visit("options", plan.options);
+  visit("engine", plan.engine);
+  visit("engine_options", plan.engine_options);
+  visit("threads", plan.threads);
+  visit("at_once", plan.at_once);
+  visit("retries", plan.retries);
+  visit("most_rounds", plan.most_rounds);
+  visit("movie", plan.movie);
+  visit("movie_file", plan.movie_file);
+  visit("deliver", plan.deliver);
+  visit("movie_options", plan.movie_options);
+  visit("deliver_options", plan.deliver_options);
+}
+
 Json plan_json(const FarmPlan& plan) {
-  Json json{{"id", plan.id},
-            {"domefall", plan.version},
-            {"program", plan.program},
-            {"show", plan.show.string()},
-            {"out", plan.out.string()},
-            {"frames", plan.frames},
-            {"options", plan.options},
-            {"engine", plan.engine},
-            {"engine_options", plan.engine_options},
-            {"threads", plan.threads},
-            {"at_once", plan.at_once},
-            {"retries", plan.retries},
-            {"most_rounds", plan.most_rounds},
-            {"movie", plan.movie},
-            {"movie_file", plan.movie_file},
-            {"deliver", plan.deliver},
-            {"movie_options", plan.movie_options},
-            {"deliver_options", plan.deliver_options},
-            {"chunks", Json::array()},
-            {"rounds", Json::array()}};
+  Json json;
+  each_field(plan, [&](const char* name, const auto& value) { json[name] = value; });
+  json["chunks"] = Json::array();
+  json["rounds"] = Json::array();
   for (const PlannedChunk& chunk : plan.chunks) json["chunks"].push_back(chunk_json(chunk));
   for (const FarmRound& round : plan.rounds) json["rounds"].push_back(round_json(round));
   return json;
@@ -61,24 +68,7 @@ std::string plan_text(const FarmPlan& plan) { return utf8_json(plan_json(plan), 
 
 FarmPlan plan_of(const Json& json) {
   FarmPlan plan;
-  json.at("id").get_to(plan.id);
-  json.at("domefall").get_to(plan.version);
-  json.at("program").get_to(plan.program);
-  plan.show = json.at("show").get<std::string>();
-  plan.out = json.at("out").get<std::string>();
-  json.at("frames").get_to(plan.frames);
-  json.at("options").get_to(plan.options);
-  json.at("engine").get_to(plan.engine);
-  json.at("engine_options").get_to(plan.engine_options);
-  json.at("threads").get_to(plan.threads);
-  json.at("at_once").get_to(plan.at_once);
-  json.at("retries").get_to(plan.retries);
-  json.at("most_rounds").get_to(plan.most_rounds);
-  json.at("movie").get_to(plan.movie);
-  json.at("movie_file").get_to(plan.movie_file);
-  json.at("deliver").get_to(plan.deliver);
-  json.at("movie_options").get_to(plan.movie_options);
-  json.at("deliver_options").get_to(plan.deliver_options);
+  each_field(plan, [&](const char* name, auto& value) { json.at(name).get_to(value); });
   for (const Json& chunk : json.at("chunks"))
     plan.chunks.push_back(
         {chunk.at("round"), chunk.at("task"), chunk.at("frames"), chunk.value("estimated_s", 0.0)});
@@ -95,7 +85,6 @@ void make_farm_folder(const fs::path& folder) {
   if (error) throw_file_error(folder, error.value());
 }
 
-// Says whether the plan is of a part of the show whose frames were all there and good already.
 bool had_nothing_to_do(const FarmPlan& plan) {
   return plan.chunks.empty() && !plan.frames.empty() && plan.movie.empty() && plan.deliver.empty();
 }

@@ -1,5 +1,3 @@
-#include "farm/status.h"
-
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -10,6 +8,7 @@
 #include <future>
 #include <nlohmann/json.hpp>
 
+#include "farm/verbs.h"
 #include "pipeline/base/utf8.h"
 #include "pipeline/image/frame_list.h"
 
@@ -26,7 +25,6 @@ std::string short_duration(double seconds) {
   return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
-// Writes a date and a time by this machine's clock and time zone.
 std::string clock_of(double since_1970_s) {
   const auto time = static_cast<std::time_t>(since_1970_s);
   std::tm local{};

@@ -1,5 +1,3 @@
-#include "farm/submission.h"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -14,6 +12,7 @@
 #include "farm/engine.h"
 #include "farm/plan.h"
 #include "farm/rounds.h"
+#include "farm/verbs.h"
 #include "farm/worker_process.h"
 #include "pipeline/base/disk_room.h"
 #include "pipeline/base/errors.h"

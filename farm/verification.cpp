@@ -1,5 +1,3 @@
-#include "farm/verification.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "farm/farm_frames.h"
+#include "farm/verbs.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/interruption.h"
 #include "pipeline/base/new_file.h"

@@ -1,5 +1,3 @@
-#include "farm/work.h"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -13,6 +11,7 @@
 #include "farm/rounds.h"
 #include "farm/signal_inbox.h"
 #include "farm/slurm.h"
+#include "farm/verbs.h"
 #include "farm/worker_process.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/interruption.h"

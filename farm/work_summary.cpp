@@ -59,7 +59,6 @@ std::string line_of_empty(const fs::path& log) {
   return "the log is empty";
 }
 
-// Says whether a log ends with what `domefall render` says when it has made its frames.
 bool tells_of_success(const std::string& last_line) {
   return last_line.find(" frames made, ") != std::string::npos &&
          last_line.find(" already there, in ") != std::string::npos;

@@ -1,23 +1,14 @@
 #!/usr/bin/env bash
 # What the tests of the launchers share; to be sourced. A test runs in a scratch folder of its own,
 # $scratch, which goes away when it ends, and finds a show there, fall.yaml.
-set -euo pipefail
-
-: "${DOMEFALL:?the program under test}" "${DOMEFALL_SOURCE:?the source tree}"
+# shellcheck source=../cli/common.bash
+source "$(dirname "${BASH_SOURCE[0]}")/../cli/common.bash"
 export DOMEFALL
-# Short, and outside the source: the paths of sockets have at most 107 bytes.
-scratch=$(mktemp -d "${TMPDIR:-/tmp}/farm.XXXXXX")
+scratch=$folder
 trap 'end_marked; rm -rf "$scratch"' EXIT
-# shellcheck disable=SC2034 # for what lies beside a test
-here=$(cd "$(dirname "$0")" && pwd)
-cd "$scratch"
 # Processes that this test started, and theirs, are known by this mark in their environment.
 export DOMEFALL_FARM_TEST=$scratch
 
-fail() {
-  printf 'FAILED: %s\n' "$*" >&2
-  exit 1
-}
 pass() { printf 'ok (%2d s): %s\n' "$SECONDS" "$*"; }
 
 # try_claims CLAIM...: runs these functions in their order.

@@ -1,4 +1,4 @@
-// This file checks that the number of an option lies within its bounds.  NaN does not pass either.
+// Options that are numbers within bounds.  NaN does not pass either.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,6 +18,13 @@ inline CLI::Validator number_in(double low, double high) {
         return {};
       },
       bounds);
+}
+
+// Adds an option for a number from `low` to `high`, whose help names the default.
+template <class Number>
+CLI::Option* add_number(CLI::App& verb, const char* name, Number& value, const std::string& help,
+                        double low, double high) {
+  return verb.add_option(name, value, help)->check(number_in(low, high))->capture_default_str();
 }
 
 }  // namespace domefall

@@ -8,10 +8,7 @@
 #include <thread>
 
 #include "farm/engine.h"
-#include "farm/status.h"
-#include "farm/submission.h"
-#include "farm/verification.h"
-#include "farm/work.h"
+#include "farm/verbs.h"
 #include "pipeline/base/interruption.h"
 #include "pipeline/program/cli/number_in.h"
 #include "pipeline/program/cli/option_types.h"
@@ -126,13 +123,9 @@ void add_how_options(CLI::App& verb, const std::shared_ptr<SubmitOptions>& o) {
       ->check(number_in(1, kMostChunkFrames));
   verb.add_option("--at-once", o->at_once, "with slurm: tasks that may run at the same time")
       ->check(number_in(1, kMostChunkFrames));
-  verb.add_option("--retries", o->retries, "how often a task is tried again")
-      ->check(number_in(0, kMostTries))
-      ->capture_default_str();
-  verb.add_option("--rounds", o->rounds,
-                  "how often what is missing or bad after all tasks is rendered again")
-      ->check(number_in(0, kMostTries))
-      ->capture_default_str();
+  add_number(verb, "--retries", o->retries, "how often a task is tried again", 0, kMostTries);
+  add_number(verb, "--rounds", o->rounds,
+             "how often what is missing or bad after all tasks is rendered again", 0, kMostTries);
   verb.add_option("--program", o->program,
                   "where the nodes find domefall, or its name in PATH; default this program")
       ->type_name(kFileType)
@@ -193,9 +186,7 @@ void add_place_options(CLI::App& verb, WorkOptions& o, const char* round) {
       ->type_name(kFolderType)
       ->required();
   verb.add_option("--plan", o.plan, "the ID")->required();
-  verb.add_option("--round", o.round, round)
-      ->check(number_in(0, kMostRound))
-      ->capture_default_str();
+  add_number(verb, "--round", o.round, round, 0, kMostRound);
   verb.add_flag("--slurm", o.slurm,
                 "this is a job of Slurm that farm submit has made, and may be requeued");
 }

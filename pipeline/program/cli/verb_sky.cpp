@@ -87,20 +87,15 @@ void add_build(CLI::App& sky) {
   auto o = std::make_shared<BuildOptions>();
   verb->add_option("--stars", o->stars, "the catalogue")->type_name(kFileType)->required();
   verb->add_option("--out", o->out, "the .sky file to write")->type_name(kFileType)->required();
-  verb->add_option("--fainter-than", o->fainter_than, "V magnitude of the brightest star taken")
-      ->check(number_in(-30.0, kEveryStar))
-      ->capture_default_str();
-  verb->add_option("--blur", o->blur_deg, "degrees; standard deviation of a star's light")
-      ->check(number_in(kNarrowestBlur / kDegree, kWidestBlur / kDegree))
-      ->capture_default_str();
-  verb->add_option("--smooth-to", o->smooth_to,
-                   "stars brighter than this V are spread wider, so that none stands out")
-      ->check(number_in(-30.0, kEveryStar))
-      ->capture_default_str();
+  add_number(*verb, "--fainter-than", o->fainter_than, "V magnitude of the brightest star taken",
+             -30.0, kEveryStar);
+  add_number(*verb, "--blur", o->blur_deg, "degrees; standard deviation of a star's light",
+             kNarrowestBlur / kDegree, kWidestBlur / kDegree);
+  add_number(*verb, "--smooth-to", o->smooth_to,
+             "stars brighter than this V are spread wider, so that none stands out", -30.0,
+             kEveryStar);
   verb->add_option("--size", o->size, "texels along a cube face, a power of two [by the blur]");
-  verb->add_option("--gain", o->gain, "factor on the light")
-      ->check(number_in(1e-6, 1e6))
-      ->capture_default_str();
+  add_number(*verb, "--gain", o->gain, "factor on the light", 1e-6, 1e6);
   verb->callback([o] { build(*o); });
 }
 
@@ -218,27 +213,21 @@ void add_orientation(CLI::App& verb, ImportOptions& o) {
       "--ra-left", o.left, "longitude grows to the left, as seen from inside [so it does]");
   verb.add_flag("--ra-right,--flip", o.right, "longitude grows to the right")->excludes(left);
   verb.add_flag("--south-up", o.import.orientation.south_up, "the top row is the south pole");
-  verb.add_option("--centre-ra,--centre-longitude", o.import.orientation.centre_deg,
-                  "longitude of the middle column, degrees")
-      ->check(number_in(-360.0, 360.0))
-      ->capture_default_str();
+  add_number(verb, "--centre-ra,--centre-longitude", o.import.orientation.centre_deg,
+             "longitude of the middle column, degrees", -360.0, 360.0);
 }
 
 void add_cmb(CLI::App& verb, ImportOptions& o) {
   CLI::Option* cmb = verb.add_flag(
       "--cmb", o.cmb, "the map holds fluctuations of the microwave background's temperature");
-  verb.add_option("--cmb-redshift", o.background.redshift, "it is shown as it was at this redshift")
-      ->check(number_in(250.0, 1e5))
-      ->needs(cmb)
-      ->capture_default_str();
-  verb.add_option("--cmb-contrast", o.background.contrast, "factor on the fluctuations")
-      ->check(number_in(0.0, 1e6))
-      ->needs(cmb)
-      ->capture_default_str();
-  verb.add_option("--cmb-luminance", o.background.luminance, "cd/m^2, of its mean temperature")
-      ->check(number_in(1e-9, 1e3))
-      ->needs(cmb)
-      ->capture_default_str();
+  add_number(verb, "--cmb-redshift", o.background.redshift,
+             "it is shown as it was at this redshift", 250.0, 1e5)
+      ->needs(cmb);
+  add_number(verb, "--cmb-contrast", o.background.contrast, "factor on the fluctuations", 0.0, 1e6)
+      ->needs(cmb);
+  add_number(verb, "--cmb-luminance", o.background.luminance, "cd/m^2, of its mean temperature",
+             1e-9, 1e3)
+      ->needs(cmb);
 }
 
 void add_sky_import(CLI::App& sky) {

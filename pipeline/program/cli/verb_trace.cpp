@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <string>
@@ -28,7 +27,6 @@ class RayTable {
  public:
   explicit RayTable(const std::string& file) : rows_(file, {"observer", "r", "delta"}) {}
 
-  // Reads the next ray, and returns false at the end.
   bool next(RayCells& cells) {
     if (!rows_.next()) return false;
     cells = {cell("observer"), cell("r"), cell("delta"), cell("edge"), cell("offset"), cell("psi")};
@@ -133,11 +131,10 @@ void add_trace(CLI::App& app) {
                    "dopri5, rkf78 (the full geodesic equations), binet-dopri5, binet-rkf78")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
-  verb->add_option("--tolerance", options->tolerance,
-                   "of the integrators, relative, each step, 1e-13 to 1e-3; a ray nearer to an "
-                   "edge than that may lose its origin")
-      ->check(number_in(1e-13, 1e-3))
-      ->capture_default_str();
+  add_number(*verb, "--tolerance", options->tolerance,
+             "of the integrators, relative, each step, 1e-13 to 1e-3; a ray nearer to an "
+             "edge than that may lose its origin",
+             1e-13, 1e-3);
   verb->callback([table, method, options] { trace(*table, trace_method(*method), *options); });
 }
 
