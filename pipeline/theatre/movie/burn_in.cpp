@@ -16,7 +16,6 @@ std::string ass_time(std::size_t tenths) {
                      tenths % 10);
 }
 
-// Returns the text with each newline as the ASS format writes it.
 std::string ass_lines(std::string text) {
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at))
     text.replace(at, 1, "\\N");

@@ -121,13 +121,11 @@ void require_program(const char* name, const char* option, const char* package) 
         fmt::format("the program {} does not work here: it {}", name, outcome.text()));
 }
 
-// Returns the name of the encoder in ffmpeg's options for video.
 std::string codec_of(const Arguments& video) {
   const auto at = std::ranges::find(video, "-c:v");
   return at == video.end() ? std::string("an encoder") : "the encoder " + *(at + 1);
 }
 
-// Makes the movie of a small black frame, in memory.
 ChildOutcome try_small(const MoviePlan& plan) {
   constexpr int kSide = 128;
   MoviePlan small = plan;

@@ -24,7 +24,7 @@ struct MoviePlan {
   ColourTags tags;
   Sound sound;
   std::string subtitles;                // the text of burn_in.h, or empty
-  std::string chapters{};               // the text of chapters.h, or empty
+  std::string chapters{};               // as ffmetadata, or empty
   std::optional<LightLevels> levels{};  // of HDR frames that were there to be measured
 };
 

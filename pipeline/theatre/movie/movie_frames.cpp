@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <future>
 #include <memory>
@@ -15,11 +16,48 @@
 #include "pipeline/render/frames/graded_frames.h"
 #include "pipeline/render/frames/progress.h"
 #include "pipeline/render/keyed_renderer.h"
+#include "pipeline/show/show.h"
 #include "pipeline/theatre/movie/burn_in.h"
-#include "pipeline/theatre/movie/chapters.h"
 
 namespace domefall {
 namespace {
+
+// A backslash takes their meaning from these characters, and a line break ends a value.
+std::string escaped(const std::string& value) {
+  std::string text;
+  for (const char c : value) {
+    if (std::string_view("=;#\\\n").find(c) != std::string_view::npos) text += '\\';
+    text += c;
+  }
+  return text;
+}
+
+// Returns the markers of a show as the chapters of a movie of the frames [first, first + count), as
+// ffmpeg reads them (ffmetadata), each from its marker to the next one.  Before the first marker
+// lies a chapter with the show's title.  The text is empty for a show without markers.
+std::string chapters(const Show& show, int first, int count) {
+  if (show.markers.empty()) return "";
+  const double begin = first / show.frames_per_second, end = begin + count / show.frames_per_second;
+  std::vector<Marker> markers{{show.title, begin}};
+  double latest = -1;  // of the markers up to the first frame, the last of which names its chapter
+  for (const Marker& marker : show.markers) {
+    if (marker.at_s >= end) continue;
+    if (marker.at_s > begin)
+      markers.push_back(marker);
+    else if (marker.at_s >= latest)
+      markers[0].name = marker.name, latest = marker.at_s;
+  }
+  std::ranges::stable_sort(markers, {}, &Marker::at_s);
+  constexpr double kThousand = 1000;
+  std::string text = ";FFMETADATA1\n";
+  for (std::size_t k = 0; k < markers.size(); ++k) {
+    const auto at = [&](double seconds) { return std::lround((seconds - begin) * kThousand); };
+    text += fmt::format("[CHAPTER]\nTIMEBASE=1/1000\nSTART={}\nEND={}\ntitle={}\n",
+                        at(markers[k].at_s), at(k + 1 < markers.size() ? markers[k + 1].at_s : end),
+                        escaped(markers[k].name));
+  }
+  return text;
+}
 
 // Returns how many frames are unpacked ahead, within half a gibibyte but at least one.
 std::size_t frames_ahead(const MovieRun& run) {

@@ -80,7 +80,6 @@ export class Instruments {
     const { marks, step_s: step } = this.show.plots, at = Math.min(marks.length - 1, Math.max(0, time / step));
     const low = marks[Math.floor(at)], high = marks[Math.min(marks.length - 1, Math.floor(at) + 1)], part = at % 1;
     const svg = $('now');
-    while (svg.children.length > low.length / 2) svg.lastChild.remove();
     while (svg.children.length < low.length / 2)
       svg.append(document.createElementNS('http://www.w3.org/2000/svg', 'circle'));
     while (svg.children.length > low.length / 2) svg.lastChild.remove();

@@ -23,7 +23,7 @@ const tests = window.domefall = { drawn: 0, frame: -1, mistake: null, ready: fal
 
 const projector = new Projector(canvas, () => { pictures.renew(); spheres.renew(); });
 const instruments = new Instruments();
-const controls = new Controls(() => { tellNothing(); redraw(); });
+const controls = new Controls(() => change());
 const sound = new Sound($('sound'));
 const timeline = new Timeline($('timeline'), (seconds) => seek(seconds));
 
@@ -84,6 +84,12 @@ function redraw() {
   requestAnimationFrame(draw);
 }
 
+// What was told of a place is no longer there.
+function change() {
+  tellNothing();
+  redraw();
+}
+
 function draw() {
   asked = false;
   const ratio = devicePixelRatio, width = Math.round(canvas.clientWidth * ratio),
@@ -139,8 +145,7 @@ function setPlaying(on) {
 
 function seek(seconds) {
   play.time = Math.max(0, Math.min((show.frames - 1) / show.frames_per_second, seconds));
-  tellNothing();
-  redraw();
+  change();
 }
 
 function step(frames) {
@@ -158,8 +163,7 @@ function setLoop(on) {
 function zoom(factor) {
   if (!widest()) return;
   view.fov = Math.max(narrowest, Math.min(widest(), view.fov * factor));
-  tellNothing();
-  redraw();
+  change();
 }
 
 function turn(dx, dy, rolls) {
@@ -174,14 +178,12 @@ function turn(dx, dy, rolls) {
     view.az -= right * degrees / Math.max(0.2, Math.cos(view.alt * Math.PI / 180));
     view.az = ((view.az + 540) % 360) - 180;
   }
-  tellNothing();
-  redraw();
+  change();
 }
 
 function goHome() {
   Object.assign(view, { own: true, fov: 100 });
-  tellNothing();
-  redraw();
+  change();
 }
 
 // Requests are about pictures of 4096 pixels at most, whatever the screen has.
@@ -254,8 +256,7 @@ $('projection').replaceChildren(...Object.keys(projections).map((name) =>
 $('projection').addEventListener('change', () => {
   view.projection = $('projection').value;
   view.fov = projections[view.projection].usual ?? Math.min(view.fov, widest() ?? view.fov);
-  tellNothing();
-  redraw();
+  change();
 });
 for (const [id, act] of Object.entries({
   play: () => setPlaying(!play.on), first: () => { setPlaying(false); seek(0); }, back: () => step(-1), ahead: () => step(1),
