@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
-#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 

@@ -1,6 +1,5 @@
 #include "trajectories/geodesic.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

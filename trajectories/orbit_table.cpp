@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 #include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/short_number.h"
@@ -24,7 +23,6 @@ double rounding_of(double low, double high) {
   return kNoise * std::max(std::abs(low), std::abs(high));
 }
 
-// Returns the greatest slope between nodes over the greatest value.
 double steepness(const PanelValues& values) {
   double slope = 0, largest = std::abs(values[0]);
   for (std::size_t j = 1; j < kPanelTerms; ++j) {

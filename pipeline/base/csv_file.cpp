@@ -66,7 +66,6 @@ bool has_dashes(std::string_view cell) {
   return cell.find("--") != std::string_view::npos || cell.find("==") != std::string_view::npos;
 }
 
-// Returns the number of line ends, which are LF, CR LF or CR.
 int line_ends_in(std::string_view text) {
   int count = 0;
   for (std::size_t k = 0; k < text.size(); ++k)
@@ -74,7 +73,6 @@ int line_ends_in(std::string_view text) {
   return count;
 }
 
-// Returns a text with a blank for each end of a line.
 std::string with_blanks(std::string_view text) {
   std::string line;
   for (std::size_t k = 0; k < text.size(); ++k)

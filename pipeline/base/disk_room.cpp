@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "pipeline/base/errors.h"
-#include "pipeline/base/new_file.h"
 
 namespace domefall {
 namespace {
@@ -30,7 +29,6 @@ double bytes_below(const fs::path& folder) {
   return bytes;
 }
 
-// Returns the path, or the nearest folder above it that is there.
 fs::path nearest_there(const fs::path& path) {
   std::error_code error;
   fs::path there = fs::absolute(path, error);

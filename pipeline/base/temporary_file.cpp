@@ -16,7 +16,6 @@
 #include <system_error>
 
 #include "pipeline/base/errors.h"
-#include "pipeline/base/new_file.h"
 #include "pipeline/base/regular_file.h"
 #include "pipeline/base/utf8.h"
 #include "pipeline/base/writer_id.h"

@@ -28,8 +28,6 @@ std::string spelt_code(char32_t code) {
                      : fmt::format("\\u{:04X}", static_cast<unsigned>(code));
 }
 
-// Returns the text with the characters spelt for which `is_spelt(code)`, and with the bytes that
-// belong to none.
 template <class IsSpelt>
 std::string with_spelt(std::string_view text, const IsSpelt& is_spelt) {
   std::string spelt;

@@ -177,7 +177,6 @@ pid_t copy_without_signals(int to, const std::function<void()>& step, const Chil
   return copy;
 }
 
-// Reads whatever the copy writes until it ends, and says whether it ended in time.
 bool read_in_time(int from, std::string& text, int seconds) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(seconds);

@@ -28,12 +28,12 @@ struct DomeSettings {
 };
 
 struct GradeSettings {
-  std::filesystem::path config;  // of OpenColorIO
-  bool shipped = false;          // it is Domefall's own, and need not be tried before it is used
-  std::string display;           // empty for the configuration's default
-  std::string view;              // empty for the display's default
-  Cdl cdl;
-  DomeSettings dome;  // for domemasters alone
+  std::filesystem::path config{};  // of OpenColorIO
+  bool shipped = false;            // it is Domefall's own, and need not be tried before it is used
+  std::string display{};           // empty for the configuration's default
+  std::string view{};              // empty for the display's default
+  Cdl cdl{};
+  DomeSettings dome{};  // for domemasters alone
 };
 
 }  // namespace domefall

@@ -122,7 +122,6 @@ void GradeTable::fill(int block) {
   });
 }
 
-// Sets the errors of cells to the largest at their probes.
 void GradeTable::compare(int block) {
   std::vector<float> rgb(3 * kPlaneCells), codes(3 * kPlaneCells);
   std::vector<unsigned short> looked_up(3 * kPlaneCells + 1);

@@ -19,7 +19,6 @@
 #include "pipeline/grade/grade_table.h"
 #include "pipeline/grade/pixel_planes.h"
 #include "pipeline/grade/view_transform.h"
-#include "pipeline/sources/colour/colour_space.h"
 
 namespace domefall {
 

@@ -18,17 +18,17 @@
 namespace domefall {
 
 struct FrameInfo {
-  std::string title;       // of the show
-  std::string show;        // digest of what all frames of this version of the show share
-  std::string key;         // digest of everything that decides this frame, hexadecimal
+  std::string title{};     // of the show
+  std::string show{};      // digest of what all frames of this version of the show share
+  std::string key{};       // digest of everything that decides this frame, hexadecimal
   int frame = 0;           // number in the show, from 0
-  std::string region;      // of the observer: I, II, ...
+  std::string region{};    // of the observer: I, II, ...
   double r = 0;            // of the observer, M
   double proper_time = 0;  // of the observer, M
   double frames_per_second = 0;
-  std::string projection;
-  std::string software;
-  std::string owner;  // whose the picture is; empty: nothing is said
+  std::string projection{};
+  std::string software{};
+  std::string owner{};  // whose the picture is; empty: nothing is said
   // These lead from a world to the camera that made the picture and, where straight lines stay
   // straight, to places in it, both by the rules of the OpenEXR attributes of these names.
   std::optional<ExrMatrix> world_to_camera{}, world_to_ndc{};

@@ -20,7 +20,6 @@ void check_digest(const FrameHead& head) {
 
 // ---- the description of a PNG, TIFF or JPEG: lines of "name: value" ----
 
-// Returns where the line's value begins, or npos.
 std::size_t place_of_value(std::string_view text, std::string_view line) {
   for (std::size_t begin = 0; begin < text.size();) {
     if (text.substr(begin).starts_with(line)) return begin + line.size();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/new_file.h"

@@ -39,8 +39,8 @@ std::string format_id(const GradedFormat& format);
 GradedFormat format_by_name(const std::filesystem::path& path);
 
 struct GradedInfo {
-  std::string key;  // digest of everything that decides this frame and its grade, hexadecimal
-  std::string title;
+  std::string key{};  // digest of everything that decides this frame and its grade, hexadecimal
+  std::string title{};
   int frame = 0;
   std::string display, view;  // of the OpenColorIO configuration
   std::string software;

@@ -2,7 +2,6 @@
 // compositing programs read it: the public specification of Psyop, version 1.2.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>

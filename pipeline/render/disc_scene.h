@@ -2,7 +2,6 @@
 // asked.
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "pipeline/render/disc/disc_pass.h"

@@ -20,7 +20,6 @@ constexpr int kLensMapVersion = 2;
 
 constexpr double kHalfTurn = 180;  // degrees
 
-// Returns the number that stands for a region in its channel.
 float number_of(SkyRegion sky) {
   switch (sky) {
     case SkyRegion::kI:

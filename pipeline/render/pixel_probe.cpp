@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "pipeline/render/disc_scene.h"
 #include "pipeline/render/overlay/frame_titles.h"

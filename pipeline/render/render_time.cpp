@@ -41,7 +41,6 @@ FrameState measured_state(const Show& show, int k) {
   return frame_state(show, static_cast<int>(last * std::max(0, 2 * k - 1) / (2 * kFrames)));
 }
 
-// Returns the mean number of instants in a frame of full size with an open shutter.
 double mean_instants(const Show& show) {
   if (!(show.exposure.shutter > 0)) return 1;
   LensStore lenses;
@@ -92,10 +91,8 @@ class Measurement {
     const double processor = processor_seconds();
     for (int k = 1; k <= kFrames; ++k)
       render_for_files(renderer_, show_, state(k, width, stars), frame);
-    Cost cost;
-    cost.wall = watch.seconds() / kFrames;
-    cost.processor = (processor_seconds() - processor) / kFrames;
-    return cost;
+    return {.wall = watch.seconds() / kFrames,
+            .processor = (processor_seconds() - processor) / kFrames};
   }
 
  private:

@@ -22,7 +22,6 @@ constexpr double kExceeding = 0.05;
 // 0, and any motion would be infinitely many pixels.
 constexpr double kNarrowest = 0.25;
 
-// Returns the motion of the sky in pixels between two instants.
 double motion_between(const Show& show, const FrameState& from, const FrameState& to,
                       LensStore& lenses) {
   const auto tracer = [&](const FrameState& state) {

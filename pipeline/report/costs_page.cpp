@@ -17,7 +17,6 @@ using Counted = double FrameCostRow::*;
 
 std::string count(double value) { return fmt::format("{:.0f}", value); }
 
-// Returns the names of the scenes, whose rows stand together, in the order of the rows.
 std::vector<std::string> scenes_of(const std::vector<FrameCostRow>& rows) {
   std::vector<std::string> scenes;
   for (const FrameCostRow& row : rows)

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/report/report.h"
 #include "pipeline/report/text.h"
@@ -28,12 +27,10 @@ void add_point(Plot& plot, const std::string& name, const PlotPoint& point) {
 // logarithmic.  An integration of order n is a straight line of slope -n there, as long as its
 // error is not of rounding.
 Plot log_plot(const std::string& title, const std::string& x, const std::string& y) {
-  Plot plot;
-  plot.title = title;
-  plot.x = {x, Axis::Scale::kLog};
-  plot.y = {y, Axis::Scale::kLog};
-  plot.legend = "outside right";
-  return plot;
+  return {.title = title,
+          .x = {x, Axis::Scale::kLog},
+          .y = {y, Axis::Scale::kLog},
+          .legend = "outside right"};
 }
 
 // A member of the row says which error is drawn.

@@ -224,7 +224,6 @@ Show show_of_series(const Series& series) {
   return show;
 }
 
-// Returns the sum of all pixel values of each frame.
 std::array<double, kSteps> light_of_frames(const Show& show) {
   Renderer renderer(show, 0);
   std::array<double, kSteps> light{};

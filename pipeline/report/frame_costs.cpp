@@ -95,7 +95,6 @@ class Shows {
   ScratchFolder folder_;
 };
 
-// Returns how many pixels of an image show anything: for a dome those inside its circle.
 double pixels_inside(const Projection& projection) {
   double count = 0;
   for (int row = 0; row < rows(projection); ++row) {

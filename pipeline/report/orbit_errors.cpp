@@ -80,7 +80,6 @@ OrbitCase closed_form_case(std::string name, const Kind& kind, const std::vector
   return orbit;
 }
 
-// Returns proper times (M) from end/states to end.
 std::vector<double> evenly(double end, int states) {
   std::vector<double> taus;
   for (int k = 1; k <= states; ++k) taus.push_back(end * k / states);
@@ -137,7 +136,6 @@ std::vector<Real> radii_beyond(const Real& turn, double first, double last, int 
   return radii;
 }
 
-// Returns radii that form a geometric series themselves, from after `from` to `to`.
 std::vector<Real> radii_to(double from, double to, int states) {
   std::vector<Real> radii;
   radii.reserve(static_cast<std::size_t>(states));
@@ -272,7 +270,6 @@ FallState fall_state(const OrbitPoint& p) {
           is_outgoing(p.tetrad) ? -p.celerity.x : p.celerity.x, p.celerity.z};
 }
 
-// Returns what the trajectory emits at the case's proper times.
 std::vector<FallState> emitted(const OrbitCase& orbit) {
   std::vector<FallState> states;
   states.reserve(orbit.taus.size());

@@ -75,12 +75,10 @@ void add_deviation(Plot& plot, const std::string& name, int colour,
 }
 
 Plot deviation_plot(const std::string& title, double turns) {
-  Plot plot;
-  plot.title = title;
-  plot.x = {"angle of the view ray from the hole, δ", Axis::Scale::kOfPi, 0, 2 * kPi, 1.0 / 4};
-  plot.y = {"origin of the light, φ_∞", Axis::Scale::kOfPi, -turns * kPi, turns * kPi, 1};
-  plot.legend = "top left";
-  return plot;
+  return {.title = title,
+          .x = {"angle of the view ray from the hole, δ", Axis::Scale::kOfPi, 0, 2 * kPi, 1.0 / 4},
+          .y = {"origin of the light, φ_∞", Axis::Scale::kOfPi, -turns * kPi, turns * kPi, 1},
+          .legend = "top left"};
 }
 
 constexpr int kColourOne = 0, kColourThree = 1, kColourFour = 2, kColourFlat = 6;
@@ -167,23 +165,22 @@ Plot what_is_seen() {
   std::vector<PlotPoint> dark = silhouette;
   dark.push_back({kFar, 0});
   dark.insert(dark.end(), third.rbegin(), third.rend());
-  Plot plot;
-  plot.title = "What the free faller sees, from rest at infinity";
-  plot.x = {"r/M", Axis::Scale::kLinear, 0, kFar, 1};
-  plot.y = {"angle from the front, degrees", Axis::Scale::kLinear, 0, kAll, 30};
-  plot.legend = "";
-  plot.curves = {
-      {"", closed(silhouette, {{kFar, kAll}, {0, kAll}}), kColourOne, PlotCurve::Style::kArea},
-      {"", dark, kColourFlat, PlotCurve::Style::kArea},
-      {"", closed(third, {{0, 0}}), kColourThree, PlotCurve::Style::kArea},
-      {"", silhouette, kColourOne, PlotCurve::Style::kLine},
-      {"", third, kColourThree, PlotCurve::Style::kLine},
-      {"", {{kHorizon, 0}, {kHorizon, kAll}}, kColourFlat, PlotCurve::Style::kDotted}};
-  plot.labels = {{6, 120, "region I"},
+  return {
+      .title = "What the free faller sees, from rest at infinity",
+      .x = {"r/M", Axis::Scale::kLinear, 0, kFar, 1},
+      .y = {"angle from the front, degrees", Axis::Scale::kLinear, 0, kAll, 30},
+      .curves = {{"", closed(silhouette, {{kFar, kAll}, {0, kAll}}), kColourOne,
+                  PlotCurve::Style::kArea},
+                 {"", dark, kColourFlat, PlotCurve::Style::kArea},
+                 {"", closed(third, {{0, 0}}), kColourThree, PlotCurve::Style::kArea},
+                 {"", silhouette, kColourOne, PlotCurve::Style::kLine},
+                 {"", third, kColourThree, PlotCurve::Style::kLine},
+                 {"", {{kHorizon, 0}, {kHorizon, kAll}}, kColourFlat, PlotCurve::Style::kDotted}},
+      .labels = {{6, 120, "region I"},
                  {4.1, 14, "silhouette (past singularity)"},
                  {0.7, 25, "region III"},
-                 {2.6, 170, "horizon"}};
-  return plot;
+                 {2.6, 170, "horizon"}},
+      .legend = ""};
 }
 
 }  // namespace

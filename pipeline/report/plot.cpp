@@ -24,7 +24,6 @@ namespace {
 constexpr std::array kPalette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                               "#e69f00", "#56b4e9", "#000000"};
 
-// Returns a colour of the palette, which begins anew after its last.
 const char* colour(int index) {
   return kPalette[static_cast<std::size_t>(index) % kPalette.size()];
 }
@@ -127,7 +126,6 @@ std::string drawn_with(const PlotCurve& curve) {
   return "with lines linewidth 2" + in;
 }
 
-// Returns the lines of the script for the legend.
 std::string key_script(const std::string& place) {
   if (place.empty()) return "unset key\n";
   // gnuplot's own "below" would run into the label of the axis, so a wider margin is made for it.

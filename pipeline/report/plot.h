@@ -35,10 +35,10 @@ struct PlotLabel {
 
 // Text is UTF-8, with gnuplot's marks for indices and powers such as r_0 and 10^{-3}.
 struct Plot {
-  std::string title;
+  std::string title{};
   Axis x, y;
-  std::vector<PlotCurve> curves;
-  std::vector<PlotLabel> labels;
+  std::vector<PlotCurve> curves{};
+  std::vector<PlotLabel> labels{};
   std::string legend = "top right";  // a place in gnuplot's words, or "below"; empty for none
 };
 

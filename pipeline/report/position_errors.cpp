@@ -1,7 +1,6 @@
 #include "pipeline/report/position_errors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -37,7 +37,6 @@ double percentile_99(const std::vector<double>& sorted) {
   return sorted[static_cast<std::size_t>(std::ceil(0.99 * count)) - 1];
 }
 
-// Returns the upper median of at least one value.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

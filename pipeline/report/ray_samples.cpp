@@ -36,7 +36,6 @@ constexpr std::array kClasses{
     RayClass{"IV", Difficulty::kDeep, "deep", 1e-6, 0.1},
 };
 
-// Returns the observers of a region, who take turns from one radius to the next.
 std::vector<TraceObserver> observers_in(std::string_view region) {
   std::vector<TraceObserver> found;
   for (const SampleObserver& o : kSampleObservers)

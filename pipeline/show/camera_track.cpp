@@ -7,7 +7,6 @@
 namespace domefall {
 namespace {
 
-// Returns the camera at an instant, except for its attitude.
 Camera camera_at(const Segment& s, double t) {
   Camera camera = s.camera;
   camera.roll = value_at(s, Channel::kRoll, t, camera.roll);

@@ -11,7 +11,6 @@ namespace {
 
 using Keys = std::vector<CurveKey>;
 
-// Returns the mean slope of the stretch that ends at key k.
 double secant(const Keys& keys, std::size_t k) {
   return (keys[k].value - keys[k - 1].value) / (keys[k].at_s - keys[k - 1].at_s);
 }

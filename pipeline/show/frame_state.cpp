@@ -38,7 +38,6 @@ FrameSettings settings_at(const Show& show, const Segment& s, double t) {
   return settings;
 }
 
-// Returns the CDL of a segment at t in the same way.
 Cdl cdl_at(const Show& show, const Segment& s, double t) {
   const Cdl& of_show = show.grade.cdl;
   Cdl cdl;

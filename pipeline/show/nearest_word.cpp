@@ -9,7 +9,6 @@
 namespace domefall {
 namespace {
 
-// Returns a word in lower case, with '_' in the place of '-' and blanks.
 std::string folded(std::string_view word) {
   std::string out;
   for (const char c : word)

@@ -27,7 +27,6 @@ DoubleDouble null_offset(const Joint& joint, const OrbitPoint& start) {
   return reached - start.null_time;
 }
 
-// Returns the point of a segment's trajectory at tau, as it is placed in the show.
 OrbitPoint point_of(const Segment& s, const ProperTime& tau) {
   return placed(point_at(s.trajectory, tau), s.placement);
 }
@@ -111,10 +110,9 @@ ProperTime proper_time_at(const Segment& s, double part) {
 }
 
 Joint first_joint(const Show& show, const Segment& first) {
-  Joint joint;
-  joint.spacetime = show.spacetime;
-  joint.axes = place_tetrad(show.hole_at, show.heading, 0);
-  joint.tetrad = point_of(first, first.timing.tau_begin).tetrad;
+  Joint joint{.axes = place_tetrad(show.hole_at, show.heading, 0),
+              .spacetime = show.spacetime,
+              .tetrad = point_of(first, first.timing.tau_begin).tetrad};
   return joint_into(joint, first);
 }
 

@@ -8,7 +8,6 @@
 namespace domefall {
 namespace {
 
-// Returns the overlay of a name, or throws InputError with the nearest name.
 OverlayKind overlay_named(std::string_view word) {
   std::vector<std::string_view> known;
   for (const auto& [kind, name] : kOverlays) {

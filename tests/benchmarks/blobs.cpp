@@ -83,10 +83,7 @@ void draw_stars(benchmark::State& state, double within, double gain) {
   const Projection p = Domemaster{size};
   const auto count = static_cast<std::size_t>(state.range(1));
   const std::vector<StarImage> images = stars(p, count, within, gain);
-  PointSpreadLaw law;
-  law.min_sigma = 0.05 * pi / 180;
-  law.max_sigma = 0.3 * pi / 180;
-  law.white_core = 10;
+  PointSpreadLaw law{.min_sigma = 0.05 * pi / 180, .max_sigma = 0.3 * pi / 180, .white_core = 10};
   if (state.range(2) == kPsf) {
     law.halo = 0.15;
     law.halo_sigma = 0.2 * pi / 180;

@@ -108,8 +108,7 @@ void report(const std::string& name, const Show& show, bool instants) {
       as_bright[m] += flash.magnitude < 3 - static_cast<double>(m) ? 1 : 0;
     flashes.push_back(flash);
   }
-  std::sort(flashes.begin(), flashes.end(),
-            [](const Flash& a, const Flash& b) { return a.magnitude < b.magnitude; });
+  std::ranges::sort(flashes, {}, &Flash::magnitude);
   fmt::print("{}: {} frames, with a flash above magnitude 3: {}, 2: {}, 1: {}, 0: {}, -1: {}\n",
              name, frames, as_bright[0], as_bright[1], as_bright[2], as_bright[3], as_bright[4]);
   for (std::size_t k = 0; k < std::min<std::size_t>(5, flashes.size()); ++k)
@@ -119,10 +118,10 @@ void report(const std::string& name, const Show& show, bool instants) {
 
 Show random_orbit(std::mt19937& random) {
   std::uniform_real_distribution<double> part(0, 1);
-  Show show;
-  show.spacetime = Schwarzschild{};
-  show.projection = Domemaster{kSize};
-  show.hole_at = {V3d(part(random) - 0.5, part(random) - 0.5, part(random) - 0.5).normalized()};
+  Show show{
+      .projection = Domemaster{kSize},
+      .spacetime = Schwarzschild{},
+      .hole_at = {V3d(part(random) - 0.5, part(random) - 0.5, part(random) - 0.5).normalized()}};
   for (const SkyRegion sky : kExteriorSkies)
     show.sky[sky].stars = StarField{source_file("shows/assets/stars_to_9.stars"), 6.5};
   Segment segment;

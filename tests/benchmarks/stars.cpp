@@ -6,7 +6,6 @@
 #include <benchmark/benchmark.h>
 
 #include <array>
-#include <cmath>
 #include <cstdlib>
 
 #include "pipeline/base/stop_watch.h"

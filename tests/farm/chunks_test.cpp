@@ -1,6 +1,6 @@
 #include "farm/chunks.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <numeric>
 

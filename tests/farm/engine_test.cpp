@@ -18,19 +18,17 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 FarmPlan small_plan() {
-  FarmPlan plan;
-  plan.id = "20260101T000000Z_00000a";
-  plan.version = "domefall 1";
-  plan.program = "/opt/dome fall/domefall";
-  plan.show = "/shows/a fall's.yaml";
-  plan.out = "/frames/100%";
-  plan.frames = "0-9";
-  plan.options = {"--size", "4k"};
-  plan.engine = "slurm";
-  plan.engine_options = {"--partition=render", "--mem=8G"};
-  plan.threads = 3;
-  plan.chunks = {{0, 0, "0-4", 1.5}, {0, 1, "5-7,9", 0}};
-  return plan;
+  return {.id = "20260101T000000Z_00000a",
+          .version = "domefall 1",
+          .program = "/opt/dome fall/domefall",
+          .show = "/shows/a fall's.yaml",
+          .out = "/frames/100%",
+          .frames = "0-9",
+          .options = {"--size", "4k"},
+          .engine = "slurm",
+          .engine_options = {"--partition=render", "--mem=8G"},
+          .threads = 3,
+          .chunks = {{0, 0, "0-4", 1.5}, {0, 1, "5-7,9", 0}}};
 }
 
 TEST(ShellWords, TakeEveryWordLiterally) {

@@ -4,13 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <string>
 
 #include "tests/trajectories/motion.h"
 #include "trajectories/infall.h"
-#include "trajectories/kruskal_crossing.h"
 #include "trajectories/static_observer.h"
 #include "trajectories/trajectory.h"
 

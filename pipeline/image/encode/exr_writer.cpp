@@ -92,7 +92,6 @@ struct FinishExr {
 };
 using ExrInTheMaking = std::unique_ptr<std::remove_pointer_t<exr_context_t>, FinishExr>;
 
-// Writes the header of a file, whose pixels are to follow.
 ExrInTheMaking begin_exr(ByteSink& sink, const ExrPicture& picture) {
   exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
   how.user_data = &sink;

@@ -4,9 +4,7 @@
 #include <Imath/half.h>
 
 #include <cstddef>
-#include <functional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>

@@ -64,7 +64,6 @@ int channel_of(const Layer& layer, std::initializer_list<const char*> names) {
   return -1;
 }
 
-// Returns the channels of a layer if these are colours or grey.
 std::optional<PictureChannels> colours_of(const Layer& layer) {
   if (is_data_name(layer.name)) return std::nullopt;
   PictureChannels found{layer.part,

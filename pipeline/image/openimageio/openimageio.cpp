@@ -29,8 +29,6 @@ constexpr std::size_t kHeaderBytes = 1 << 20;  // within which a header states t
 // file meanwhile reads the table half-filled, and the program ends by SIGSEGV.
 std::mutex one_opens;
 
-// Reads as many channels from `first` on as `count` says, each pixel at `step` floats from the
-// last.
 void read_rows(OIIO::ImageInput& in, const OIIO::ImageSpec& s, int part, std::pair<int, int> rows,
                int first, int count, float* values, std::size_t step) {
   const auto pixel = static_cast<OIIO::stride_t>(step * sizeof(float));

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
 #include "pipeline/image/encode/display_colour.h"
 #include "pipeline/image/openimageio/exr_layers.h"

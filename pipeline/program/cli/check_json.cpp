@@ -150,7 +150,6 @@ Json json_of(const CheckedSky& sky) {
           {"planets_year", rounded_json(s.planets_year)}};
 }
 
-// Adds what holds of the whole show, after its segments and joints.
 void add_whole(const CheckReport& report, Json& json) {
   const ShowSurvey& survey = report.survey;
   if (!report.show.spacetime.is_flat()) json["regions"] = region_names(survey.regions);

@@ -165,7 +165,6 @@ class Page {
     return fmt::format("frame {} ({:.5g} s)", e.frame, e.time_s);
   }
 
-  // Says what is taken for the black of each map.
   void black() {
     for (const auto& [sky, level] : r_.skies) {
       if (!level) continue;

@@ -2,7 +2,6 @@
 // the same facts.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "pipeline/base/errors.h"
 #include "pipeline/image/frame_list.h"
 #include "pipeline/program/cli/number_in.h"

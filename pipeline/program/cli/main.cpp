@@ -49,7 +49,6 @@ bool reader_has_gone() {
   return poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0;
 }
 
-// Returns the code of a program whose standard output could not be written, and says why.
 int output_failure(int error) {
   // `domefall states SHOW | head` ends like any program that is told of it by the signal.
   if (reader_has_gone()) return 128 + SIGPIPE;

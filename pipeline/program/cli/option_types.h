@@ -30,7 +30,6 @@ inline std::string refuse_empty(const std::string& path) {
   return path.empty() ? std::string("got an empty path") : std::string();
 }
 
-// Adds the argument that names the show.
 inline CLI::Option* add_show(CLI::App& verb, std::string& file) {
   return verb.add_option(kShowName, file, "show file (YAML)")->type_name(kFileType);
 }

@@ -11,7 +11,6 @@
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/output_file.h"
 #include "pipeline/program/cli/verbs.h"
-#include "pipeline/render/frames/frame_findings.h"
 #include "pipeline/render/frames/frame_folder.h"
 #include "pipeline/render/thread_limit.h"
 #include "pipeline/show/file/read_show.h"
@@ -85,7 +84,6 @@ struct SheetOptions {
   int threads = 0;
 };
 
-// Returns the frames of a sheet: those that are named, or some of all.
 std::vector<int> shown_frames(const std::string& named, int count) {
   if (named.empty()) return frames_of_sheet(count);
   std::vector<int> frames = parse_frames(named, count);

@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "pipeline/base/errors.h"
-#include "pipeline/base/new_file.h"
 #include "pipeline/base/talk.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/frame_list.h"

@@ -20,7 +20,6 @@
 #include "pipeline/render/scene/effect_ratios.h"
 #include "pipeline/show/file/frame_size.h"
 #include "pipeline/show/file/read_show.h"
-#include "pipeline/show/file/sections.h"
 #include "pipeline/show/show.h"
 #include "trajectories/equatorial.h"
 
@@ -64,7 +63,6 @@ struct Probed {
   bool is_straight() const { return is_flat(state.observer) || !show.effects.lensing; }
 };
 
-// Prints what becomes of a blackbody at the place that the ray hits, under the effects of the show.
 void print_effects(const Effects& effects, const ViewRay& ray, double width) {
   const double g = ray.frequency_ratio, colour = colour_ratio(effects, g);
   const double colour2 = colour * colour;

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <system_error>
 
-#include "pipeline/base/new_file.h"
 #include "pipeline/base/talk.h"
 #include "pipeline/base/temporary_file.h"
 #include "pipeline/program/cli/option_types.h"

@@ -65,7 +65,6 @@ nlohmann::ordered_json json_of(const M33d& m) {
   return rows;
 }
 
-// Prints an array with a state in each line.
 void print_states_json(const Show& show, const std::vector<int>& frames) {
   std::string before = "[\n";
   for (const int n : frames) {
@@ -91,7 +90,6 @@ void print_states_json(const Show& show, const std::vector<int>& frames) {
 //
 // camera_world.h says in which world it is turned.
 
-// Returns the angle that is nearest to another one of those that are whole turns away.
 double unwound(double angle, double near) {
   constexpr double kTurn = 2 * std::numbers::pi;
   return angle + kTurn * std::round((near - angle) / kTurn);

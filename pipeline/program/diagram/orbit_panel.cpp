@@ -33,7 +33,6 @@ struct Reach {
   bool moves = false;  // whether the segment's path is more than a dot beside that
 };
 
-// Returns the reaches of the segments in order of size.
 std::vector<Reach> reaches(const Path& path) {
   constexpr double kDot = 0.05;
   std::map<int, Reach> of_segment;
@@ -52,7 +51,6 @@ std::vector<Reach> reaches(const Path& path) {
   return reaches;
 }
 
-// Returns the value with two digits that is not smaller.
 double round_up(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
   return std::ceil(value / unit) * unit;

@@ -115,7 +115,6 @@ double crossing_time(const Instants& show, Tick a, Tick b) {
   return sense_of_t(inner.tetrad) * inner.null_time;
 }
 
-// Returns the v or u of all crossings between the ticks of one run, in order.
 std::vector<double> crossings_of(const Instants& show, std::span<const Tick> run) {
   std::vector<double> times;
   for (std::size_t k = 1; k < run.size(); ++k)

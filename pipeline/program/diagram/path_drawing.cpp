@@ -55,7 +55,6 @@ struct Arrow {
   PagePoint along;  // unit vector
 };
 
-// Returns the arrow `wanted` pixels along a stretch, or nothing if the stretch is shorter.
 std::optional<Arrow> arrow_after(const Stretch& stretch, double wanted) {
   double gone = 0;
   for (std::size_t i = 1; i < stretch.points.size(); ++i) {

@@ -1,7 +1,6 @@
 #include "pipeline/program/preview/live_pictures.h"
 
 #include <algorithm>
-#include <array>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/image/encode/picture_writers.h"
@@ -33,7 +32,6 @@ bool keyframes_magnitudes(const Show& show) {
   });
 }
 
-// Says whether what is loaded of one show's stars is what the other one's frames need.
 bool same_stars(const Show& a, const Show& b) {
   if (keyframes_magnitudes(a) || keyframes_magnitudes(b)) return false;
   return a.star_epoch == b.star_epoch &&
@@ -177,9 +175,7 @@ std::string LivePictures::encoded(const PictureRequest& request, const FrameStat
   Grader grader = asked.with(state.cdl);
   if (&asked != &usual_ || (table_made_ && *table_made_))
     grader = grader.as_for(kLargeDome, kLargeDome);
-  JpegHead head;
-  head.quality = request.moving ? kMovingQuality : kStillQuality;
-  head.frame = request.frame;
+  JpegHead head{.quality = request.moving ? kMovingQuality : kStillQuality, .frame = request.frame};
   ByteString bytes;
   if (!grader.dome_light() || !is_domemaster(show_.projection)) {
     write_jpeg(bytes,

@@ -110,7 +110,6 @@ class LiveShow {
   };
   std::optional<Made> picture(const Parameters& parameters, const NewestFirst::Ticket& ticket);
 
-  // Calls use(pictures) while no picture is being made.
   void with_pictures(const std::function<void(LivePictures&)>& use);
 
   int threads() const { return threads_; }

@@ -67,7 +67,6 @@ double pixel_parameter(const HttpRequest& request, std::string_view name) {
   return value;
 }
 
-// Counts the requests that are within a scope.
 class CountedIn {
  public:
   explicit CountedIn(std::atomic<int>& count) : count_(count), number_(++count) {}
@@ -92,7 +91,6 @@ HttpAnswer text_answer(int status, const std::string& text) {
 
 HttpAnswer json_answer(std::string json) { return {200, "application/json", std::move(json)}; }
 
-// Returns what the page needs to know of a picture to turn it, in a header.
 std::string made_json(const LiveShow::Made& made) {
   const FrameState& state = made.picture.state;
   nlohmann::ordered_json camera = nlohmann::ordered_json::array();

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -26,8 +25,6 @@ void add_ray(const ViewRay& ray, double width, Json& json) {
   json["order"] = static_cast<int>(ray.swept / std::numbers::pi);
 }
 
-// Returns the named star whose image is nearest to a place, within some pixels, and its images
-// there.
 Json star_near(const std::vector<NamedImage>& images, const Projection& projection,
                PixelPosition at) {
   constexpr double kNear = 8;  // pixels

@@ -34,7 +34,6 @@ M33d dome_around(const M33d& flat_axes) {
                       (ahead - down) * kHalfSquare);
 }
 
-// Says whether the camera of a segment is given by angles and not by a target.
 bool turns_by_angles(const Segment& segment) {
   return std::holds_alternative<EulerAngles>(segment.camera.attitude) ||
          std::ranges::any_of(segment.attitudes, [](const AttitudeKey& key) {
@@ -57,7 +56,6 @@ double dome_tilt(const Show& show, const FrameState& state) {
   return value_at(segment, Channel::kDomeTilt, state.show_time_s, segment.camera.dome_tilt);
 }
 
-// Returns the attitude of a segment's camera, or nothing while it turns from one to another.
 std::optional<Attitude> held_attitude(const Segment& segment, double t) {
   const auto& keys = segment.attitudes;
   if (keys.empty()) return segment.camera.attitude;
@@ -68,8 +66,6 @@ std::optional<Attitude> held_attitude(const Segment& segment, double t) {
   return std::nullopt;
 }
 
-// Returns what a camera looks at in the words of show files, or nothing for one that is turned by
-// angles.
 std::optional<std::string> words_of(const Attitude& attitude) {
   if (std::holds_alternative<LookAtHole>(attitude)) return "hole";
   if (std::holds_alternative<LookOutward>(attitude)) return "outward";
@@ -100,7 +96,6 @@ std::optional<std::string> target_as_yaml(const Show& show, const FrameState& st
   return keys + "}";
 }
 
-// Sets the camera's axes, and keeps what belongs to the audience where it was.
 void set_axes(const M33d& axes, FrameState& state) {
   state.camera_from_audience =
       axes.transposed() * state.observer.tetrad_from_camera * state.camera_from_audience;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 
 #include "pipeline/base/digest.h"
@@ -155,7 +154,6 @@ Json displays_as_json(const Show& show) {
   return displays;
 }
 
-// Returns what tells the page whether it has the sound already, or null where there is none.
 Json sound_stamp(const Show& show) {
   if (show.audio.empty()) return {};
   Digest digest;
@@ -227,7 +225,6 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
   return page_json({{"done", true}, {"warnings", list}});
 }
 
-// Returns an empty list of warnings.  It says whether the search for them is `done`.
 std::string no_warnings_as_json(bool done) {
   return page_json({{"done", done}, {"warnings", Json::array()}});
 }

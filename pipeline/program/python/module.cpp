@@ -30,7 +30,6 @@ void raise(PyObject* type, const char* message) {
   if (text) PyErr_SetObject(type, text.ptr());
 }
 
-// Makes the two kinds of error as classes of the module.
 void define_errors(py::module_& module) {
   static PyObject* const input_error = PyErr_NewExceptionWithDoc(
       "domefall.InputError", manual::kInputError, PyExc_ValueError, nullptr);

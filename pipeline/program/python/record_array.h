@@ -25,7 +25,6 @@ class RecordArray {
   RecordArray(const std::vector<RecordColumn>& columns,
               const std::vector<pybind11::ssize_t>& shape);
 
-  // Returns the number of records.
   std::size_t size() const { return size_; }
 
   // After start(), the add() functions fill the cells of that record in the order of the columns,

@@ -16,7 +16,6 @@
 #include "pipeline/render/rendered_frame.h"
 #include "pipeline/show/file/frame_size.h"
 #include "pipeline/show/file/read_show.h"
-#include "pipeline/show/file/show_time.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/state_columns.h"
 
@@ -27,7 +26,6 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-// Returns the number of an integer's digits, or nothing where no int holds it.
 std::optional<int> number_of(const std::string& digits) {
   int number = 0;
   const char* const end = digits.data() + digits.size();
@@ -68,7 +66,6 @@ std::filesystem::path path_of(const py::object& file) {
   return path;
 }
 
-// Returns a size in the form that --size takes, or nothing for None.
 std::optional<std::string> size_text(const py::object& size) {
   if (size.is_none()) return std::nullopt;
   const auto fail = [&] {
@@ -137,7 +134,6 @@ void add_cell(RecordArray& records, const StateCell& cell) {
     records.add(std::string_view(std::get<const char*>(cell)));
 }
 
-// Returns an array of numpy that owns the picture's memory.
 template <class T>
 py::array picture_array(ImageRgb<T>&& picture) {
   auto kept = std::make_unique<ImageRgb<T>>(std::move(picture));

@@ -7,7 +7,6 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <string>
 
 #include "pipeline/grade/grader.h"
 #include "pipeline/render/frame_grading.h"

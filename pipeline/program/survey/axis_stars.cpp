@@ -23,11 +23,8 @@ constexpr std::size_t kMostWarnings = 50;
 // Both numbers are larger than any show was seen to need.
 constexpr double kMostPerSine = 4, kMostBlueshift = 10;
 
-// Returns by how many magnitudes a factor makes light brighter.
 double magnitudes(double factor) { return 2.5 * std::log10(factor); }
 
-// Returns the largest value of a channel over the whole show, which has `own` where no curve sets
-// it.
 double largest_value(const Show& show, Channel channel, double own) {
   double most = own;
   for (const Segment& segment : show.timeline)
@@ -35,13 +32,11 @@ double largest_value(const Show& show, Channel channel, double own) {
   return most;
 }
 
-// Returns the largest factor by which the exposure and the gain of a show make stars brighter.
 double largest_gain(const Show& show, SkyRegion region) {
   return std::exp2(largest_value(show, Channel::kEv, show.exposure.ev)) *
          largest_value(show, star_gain_channel(region), show.sky[region].star_gain);
 }
 
-// Returns the light of the images that are in the frame.
 double light_of(const std::vector<StarImage>& images, const Projection& projection) {
   double sum = 0;
   for (const StarImage& image : images) {
@@ -129,7 +124,6 @@ void AxisStars::add(const FrameState& state, bool vanishes) {
   }
 }
 
-// Adds the frame to the star's passage, or begins another passage.
 void AxisStars::note(const Passage& found) {
   for (const std::size_t k : recent_) {
     Passage& passage = passages_[k];

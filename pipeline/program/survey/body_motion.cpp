@@ -65,7 +65,6 @@ Sightings sightings(const Show& show, int frame) {
   return found;
 }
 
-// Says whether both frames see bodies, with no cut between them.
 bool go_together(const Sightings& a, const Sightings& b) {
   return a.segment >= 0 && a.segment == b.segment && !a.bodies.empty() && !b.bodies.empty();
 }
@@ -138,7 +137,6 @@ std::optional<double> passage(const Sighting& a, const Sighting& b) {
   return frames;
 }
 
-// Returns the light that all images of one body bring to a frame.
 double light_of(const Show& show, std::size_t body, int frame) {
   const FrameState state = frame_state(show, frame);
   const FramePlan plan = plan_frame(show, state);
@@ -150,7 +148,6 @@ double light_of(const Show& show, std::size_t body, int frame) {
   return sum;
 }
 
-// Returns a warning if a frame has more of the body's light than both of its neighbours.
 std::optional<ShowWarning> flash_warning(const Show& show, std::size_t body, int frame) {
   const int segment = frame_state(show, frame).segment;
   double beside = 0;

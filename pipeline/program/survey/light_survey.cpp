@@ -29,7 +29,6 @@ double white_of(const Grader& grader) {
   return *std::max_element(graded.pixels.begin(), graded.pixels.end());
 }
 
-// Returns the indices of the pixels inside the image of a projection.
 std::vector<std::size_t> inside_pixels(const Projection& p) {
   std::vector<std::size_t> inside;
   for (int row = 0; row < rows(p); ++row) {

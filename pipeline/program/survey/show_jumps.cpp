@@ -55,7 +55,6 @@ double angle_between(const M33d& a, const M33d& b) {
   return 2 * std::asin(std::min(1.0, std::sqrt(sum / 8)));
 }
 
-// Returns the camera's axes on the sky, as columns.
 M33d on_sky(const ObserverState& o) {
   const auto axis = [&o](int k) {
     return apply(o.sky_from_tetrad, column(o.tetrad_from_camera, k));
@@ -67,10 +66,9 @@ M33d on_sky(const ObserverState& o) {
 // meant to jump.
 FramePair compare(const Show& show, const FrameState& a, const FrameState& b) {
   if (a.segment != b.segment) return {};
-  FramePair pair;
-  pair.segment = a.segment;
-  pair.stops = b.settings.ev - a.settings.ev;
-  pair.turn = angle_between(on_sky(a.observer), on_sky(b.observer));
+  FramePair pair{.turn = angle_between(on_sky(a.observer), on_sky(b.observer)),
+                 .stops = b.settings.ev - a.settings.ev,
+                 .segment = a.segment};
   // The turn against the hole is that in the tetrad, whose first axis is radial.
   if (!is_flat(a.observer) && a.observer.tetrad == b.observer.tetrad)
     pair.turn = std::min(
@@ -100,7 +98,7 @@ std::vector<int> chosen_frames(const Show& show) {
     const auto is_near = [&](const AttitudeKey& key) {
       return std::abs(key.at_s * show.frames_per_second - n) <= 2;
     };
-    if (keys.size() < 2 || n % kWithinTurns == 0 || std::any_of(keys.begin(), keys.end(), is_near))
+    if (keys.size() < 2 || n % kWithinTurns == 0 || std::ranges::any_of(keys, is_near))
       frames.push_back(n);
   }
   return frames;
@@ -149,7 +147,7 @@ Pairs compare_frames(const Show& show) {
     for (int n = first; n < end; ++n) frames.push_back(n);
   }
   if (frames.size() == found.frames.size()) return found;
-  std::sort(frames.begin(), frames.end());
+  std::ranges::sort(frames);
   return compare_pairs(show, frames);
 }
 
@@ -295,8 +293,7 @@ std::vector<ShowWarning> jump_warnings(const Show& show) {
       warnings);
   warn_of_rates(show, warnings);
   Holds(show, warnings).all();
-  std::stable_sort(warnings.begin(), warnings.end(),
-                   [](const ShowWarning& a, const ShowWarning& b) { return a.time_s < b.time_s; });
+  std::ranges::stable_sort(warnings, {}, &ShowWarning::time_s);
   return warnings;
 }
 

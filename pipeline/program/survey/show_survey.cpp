@@ -18,7 +18,6 @@ constexpr int kLeastSurveySamples = 512, kMostSurveySamples = 20'000;
 // time would change it by less than rounding.
 constexpr int kMinimumBits = 26;
 
-// Adds a region unless it is the one that was visited last.
 void visit(std::vector<Region>& regions, Region region) {
   if (regions.empty() || regions.back() != region) regions.push_back(region);
 }

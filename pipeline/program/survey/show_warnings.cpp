@@ -38,7 +38,6 @@ std::optional<int> first_frame_with(const Show& show, const Title& title) {
   return std::nullopt;
 }
 
-// Says whether any letter has an outline.
 bool has_ink(const LetteredText& letters) {
   return std::ranges::any_of(letters.outlines,
                              [](const TextOutline& outline) { return !outline.curves.empty(); });

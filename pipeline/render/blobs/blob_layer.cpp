@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <tuple>
 
@@ -44,7 +43,6 @@ StarImage with_share(const StarImage& image, double share) {
 // begin with the last row of a band.
 constexpr int kMostBands = (kMostEllipsePixels + 2 * kBandRows - 2) / kBandRows;
 
-// Returns the columns that the image covers in each row of a band.
 std::array<ColumnRange, kBandRows> columns_inside(const Projection& projection, int first,
                                                   int count) {
   std::array<ColumnRange, kBandRows> inside;

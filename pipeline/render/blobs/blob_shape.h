@@ -2,7 +2,6 @@
 // first order about its centre, an ellipse in pixels, which the square of each pixel blurs.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -88,7 +88,6 @@ class ExactCap {
     }
   }
 
-  // Adds the pixels from `first` to `last` of a row.
   void add(int row, int first, int last, float* out) const {
     for (int from = first; from <= last; from += kPixelsAtOnce) {
       const int count = std::min(kPixelsAtOnce, last - from + 1);

@@ -138,7 +138,6 @@ void place_batch(const Projection& projection, const ImagePlane& plane, const St
   }
 }
 
-// Returns the shape of an ellipse that may replace a cap, or nothing if no ellipse may.
 std::optional<BlobShape> wide_shape(const Projection& projection, const CapBlob& cap) {
   const double sigma = cap.sigma, width = columns(projection);
   if (!has_blob_loops(projection)) {

@@ -35,7 +35,6 @@ class SplatBuckets {
   // splat is at most most_light.
   std::size_t sort(std::vector<StarImage>& images, float most_light, SplatList& splats) const;
 
-  // Returns the number of buckets.
   int count() const { return count_; }
   // Return the first bucket whose splats can reach rows from first_row on, and the last bucket
   // whose splats can reach rows up to last_row.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -34,18 +33,16 @@ std::string line_of(const Json& json) {
 }
 
 MadeFile made_of(const nlohmann::json& json) {
-  MadeFile made;
-  made.frame = json.at("frame").get<int>();
-  made.file = json.at("file").get<std::string>();
-  made.size = json.at("size").get<std::uint64_t>();
-  made.mtime_ns = json.at("mtime_ns").get<std::int64_t>();
-  made.digest = json.at("digest").get<std::string>();
-  made.key = json.at("key").get<std::string>();
-  made.seconds = json.at("seconds").get<double>();
-  made.brightest = json.at("brightest").get<double>();
-  made.host = json.at("host").get<std::string>();
-  made.pid = json.at("pid").get<pid_t>();
-  return made;
+  return {.frame = json.at("frame").get<int>(),
+          .file = json.at("file").get<std::string>(),
+          .size = json.at("size").get<std::uint64_t>(),
+          .mtime_ns = json.at("mtime_ns").get<std::int64_t>(),
+          .digest = json.at("digest").get<std::string>(),
+          .key = json.at("key").get<std::string>(),
+          .seconds = json.at("seconds").get<double>(),
+          .brightest = json.at("brightest").get<double>(),
+          .host = json.at("host").get<std::string>(),
+          .pid = json.at("pid").get<pid_t>()};
 }
 
 std::string this_host() {

@@ -82,7 +82,6 @@ void draw_row(const InkedRow& inked, const WorkingRgb& ink, const OverlaidImages
   inked.each([&](int x, float part) { alpha[x] = alpha[x] * (1 - part) + part; });
 }
 
-// Draws over those columns of a row that are in `range`.
 void draw_within(const ColumnRange& range, int row, int first, std::span<const double> parts,
                  const Ink& ink, const FrameRef& frame) {
   const int begin = std::max(first, range.first),

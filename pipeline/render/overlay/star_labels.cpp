@@ -5,7 +5,6 @@
 #include <map>
 #include <numbers>
 #include <tuple>
-#include <utility>
 
 #include "pipeline/base/lettering.h"
 #include "pipeline/render/overlay/bent_text.h"
@@ -57,7 +56,6 @@ NamedImage named_image(const std::string& name, int order, const CameraDirection
   return {name + (order > 0 ? "\u2032" : ""), order > 0, direction, magnitude};
 }
 
-// Returns the light that is left of an image where a disc may be.
 double left_of(const LightLeft& left, const CameraDirection& from, double psi) {
   return left ? left(from, psi) : 1;
 }

@@ -1,6 +1,5 @@
 #include "pipeline/render/rays/view_tracer.h"
 
-#include <cmath>
 #include <utility>
 
 #include "pipeline/base/simd/dispatch.h"

@@ -15,7 +15,6 @@ PerSky<const SceneStars*> stars_of_skies(const FramePlan& plan, const PerSky<con
   return stars;
 }
 
-// Returns the factor by which a background is brighter than its file says.
 double brightness_of(const FramePlan::Sky& sky) {
   const auto* panorama = sky.shown ? std::get_if<PanoramaSky>(sky.shown) : nullptr;
   return panorama ? panorama->brightness : 1;
@@ -34,7 +33,6 @@ PerSky<std::optional<SkyLight>> backgrounds_of(const Show& show, const FrameStat
   return light;
 }
 
-// Returns the camera of a cubemap's face, which is turned by the axes of the face.
 M33d turned(const M33d& whole, const CubemapFace& face) {
   return from_columns(apply(whole, face.axes[0]), apply(whole, face.axes[1]),
                       apply(whole, face.axes[2]));

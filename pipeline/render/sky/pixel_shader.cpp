@@ -1,7 +1,6 @@
 #include "pipeline/render/sky/pixel_shader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

@@ -3,7 +3,6 @@
 // the logarithm that BlackbodyColours takes.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>

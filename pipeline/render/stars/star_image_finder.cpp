@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "pipeline/render/scene/effect_ratios.h"
-#include "pipeline/render/scene/exposure.h"
 #include "pipeline/render/scene/star_light.h"
 #include "pipeline/sources/colour/blackbody.h"
 
@@ -164,7 +163,6 @@ std::optional<AxisPassage> StarImageFinder::passage_of(const SceneStar& star,
   return AxisPassage(source, way * window, radius, sharpness);
 }
 
-// Returns the image of one order in the frame of the tetrad.
 SkyImage StarImageFinder::image(const SceneStar& star, const V3d& source, int order) const {
   return out_of_lens(*scene_.tracer.lens(), points_->image(source, order, star.angular_radius));
 }

@@ -91,7 +91,6 @@ void StarImageFinder::append(const SceneStars& stars, std::size_t first, std::si
   append_exact(stars, batch, images);
 }
 
-// Sets aside the sources near the axis and makes the others candidates.
 void StarImageFinder::set_aside_axis(Batch& batch, double most_radius) const {
   const double near =
       std::max({kNearAxis * std::max(scene_.least_star_radius, most_radius), near_, kOnAxis});
@@ -149,7 +148,6 @@ void StarImageFinder::append_batch(Batch& batch, int order, std::vector<StarImag
   append_views(views, count, kFaintestPeak, images);
 }
 
-// Sets aside the orders that the lens does not find in batches.
 void StarImageFinder::set_aside_high_orders(Batch& batch) const {
   const int first = points_->orders_in_batches();
   if (first >= points_->orders()) return;
@@ -193,7 +191,6 @@ void StarImageFinder::append_views(StarViews& views, int count, double least_pea
   images.resize(bright);
 }
 
-// Does the work of append_trail() with columns of pieces.
 bool StarImageFinder::append_trail_in_batches(const SceneStar& star, const StarTrail& trail,
                                               std::vector<StarImage>& images) const {
   const M33d& camera = observer_.tetrad_from_camera;

@@ -54,7 +54,6 @@ inline void store_view(const Aberration& boost, const M33d& camera, const V3d& d
   views.z[k] = light.direction.z;
 }
 
-// Makes views of images in the frame of the tetrad.
 [[gnu::always_inline]] inline void receive_all_loop(const StarFrame& frame,
                                                     const PointImageBatch& images,
                                                     const StarSources& sources, int count,
@@ -117,7 +116,6 @@ void onto_any(const Projection& projection, double least_z, int count, StarViews
   }
 }
 
-// Returns the number of pixels per radian in the middle of the frame.
 double pixels_per_radian(const Projection& p) { return 1 / largest_pixel_angle(p); }
 
 }  // namespace

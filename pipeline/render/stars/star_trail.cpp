@@ -85,7 +85,6 @@ StarTrail::Node StarTrail::node_at(const ImageOf& image_of, double x) const {
           image.amplification * passage_.distance(x)};
 }
 
-// Adds nodes at even steps from one x to another, but none at the end.
 void StarTrail::add_nodes(const ImageOf& image_of, double from, double to) {
   const int count = std::max(1, static_cast<int>(std::ceil((to - from) / kStep)));
   for (int k = 0; k < count; ++k)

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "pipeline/base/errors.h"
 #include "pipeline/base/frame_rate.h"
 #include "pipeline/show/attitude.h"
@@ -59,7 +57,6 @@ Projection read_sides(const Item& size, const Projection& usual) {
   return with_sides(usual, width, height);
 }
 
-// Reads the size of an image, whose form depends on its projection.
 Projection read_size(const Item& size, const Projection& usual) {
   const ProjectionTraits& traits = traits_of(usual);
   if (has_free_shape(usual) && size.node.IsSequence() && size.node.size() == 2)
@@ -311,9 +308,8 @@ CameraKeys laid_over(CameraKeys keys, const CameraKeys& own) {
 // The elevation has its default with Euler angles too, which do not use it, because a keyframe may
 // turn from them to a target.
 Camera camera_from(const CameraKeys& keys, const Projection& projection) {
-  Camera camera;
-  camera.attitude = keys.attitude.value_or(LookAtHole{});
-  camera.roll = keys.values[Channel::kRoll].value_or(0);
+  Camera camera{.attitude = keys.attitude.value_or(LookAtHole{}),
+                .roll = keys.values[Channel::kRoll].value_or(0)};
   constexpr double kDomeElevationDeg = 45;
   camera.elevation = keys.values[Channel::kElevation].value_or(
       has_zenith(projection) ? radians(kDomeElevationDeg) : 0);

@@ -7,7 +7,6 @@
 namespace domefall {
 namespace {
 
-// Says whether `rate_m_per_s` is a list, which gives the rates at both ends.
 bool has_two_rates(const Section& s) {
   const Item* rate = s.find("rate_m_per_s");
   return rate && rate->node.IsSequence();

@@ -36,7 +36,6 @@ std::string odd_first_key(const YAML::Node& map) {
   return odd.empty() ? "" : " whose key '" + shown(key) + "' " + odd;
 }
 
-// Returns the unit of a range for a message, such as " (degrees)".
 std::string in_unit(const Range& range) {
   return range.unit.empty() ? "" : fmt::format(" ({})", range.unit);
 }
@@ -63,7 +62,6 @@ std::optional<std::string> scalar(const Item& item, const std::string& wanted) {
   return item.node.Scalar();
 }
 
-// Says whether a text is .nan, -.inf or the like, which YAML takes for numbers.
 bool is_yaml_special(std::string_view text) {
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
   const auto is = [&](std::string_view word) {

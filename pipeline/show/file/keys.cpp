@@ -329,7 +329,6 @@ std::map<std::string_view, std::vector<Key>> read_tables() {
   return tables;
 }
 
-// Takes words and the number behind them from the front of a text.
 std::optional<double> take(std::string_view& text, std::string_view words) {
   if (!text.starts_with(words)) return std::nullopt;
   double number = 0;
@@ -340,7 +339,6 @@ std::optional<double> take(std::string_view& text, std::string_view words) {
   return number;
 }
 
-// Returns the unit that a key's name ends with.
 std::string_view unit_of(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"_deg", "degrees"},
                                                                       {"_s", "seconds"},

@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kFallEnd = 0.05;  // M; where falls end by default
 
-// Returns a section with the keys of one type and those of every orbit.
 Section orbit_section(const Item& item, std::string_view type) {
   return {item, {"trajectory", "region", "begin", type, "end", "rates", "pace"}};
 }

@@ -52,7 +52,6 @@ class OtioReader {
     return value && value->is_string() ? value->get<std::string>() : "";
   }
 
-  // Returns the name of an object's schema without its version.
   std::string schema(const Place& at) const {
     const std::string name = text(at / "OTIO_SCHEMA");
     return name.substr(0, name.find('.'));
@@ -65,7 +64,6 @@ class OtioReader {
     return value->get<double>();
   }
 
-  // Returns a RationalTime in seconds.
   double seconds(const Place& at) const {
     const double rate = number(at / "rate");
     if (!(rate > 0)) fail(at / "rate", "must be above 0");

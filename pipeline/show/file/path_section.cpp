@@ -20,7 +20,6 @@ void set_rates(PathKey& key, const Celerity<ReferenceTetrad>& celerity, Tetrad t
   key.azimuth_rate = celerity.z / key.r;
 }
 
-// Reads `speed` or `lorentz_factor` and `direction`, against the static observer at the key.
 void read_velocity_at(const Section& s, const Stage& stage, PathKey& key, Lookup& lookup) {
   if (!s.find("speed") && !s.find("lorentz_factor")) return;
   if (!(key.r > kStaticInnermost)) {

@@ -39,15 +39,13 @@ PointSpreadLaw read_point_spread(const Section& s) {
     s.find("max_sigma_deg")
         ->fail(fmt::format("must be at least min_sigma_deg = {} (degrees), got {}",
                            short_number(least), as_written(*s.find("max_sigma_deg"))));
-  PointSpreadLaw law;
-  law.min_sigma = radians(least);
-  law.max_sigma = radians(most);
-  law.growth = s.number("growth");
-  law.reference_magnitude = s.number("reference_magnitude");
-  law.white_core = psf ? s.number("white_core") : s.number("white_core", kPaperWhiteCore);
-  law.halo = psf ? s.number("halo") : 0;
-  law.halo_sigma = psf ? s.angle("halo_sigma_deg") : 0;
-  return law;
+  return {.min_sigma = radians(least),
+          .growth = s.number("growth"),
+          .reference_magnitude = s.number("reference_magnitude"),
+          .max_sigma = radians(most),
+          .halo = psf ? s.number("halo") : 0,
+          .halo_sigma = psf ? s.angle("halo_sigma_deg") : 0,
+          .white_core = psf ? s.number("white_core") : s.number("white_core", kPaperWhiteCore)};
 }
 
 // ---- effects ----
@@ -192,9 +190,7 @@ void check_effects(const Item& root, const Show& show) {
 
 GradeSettings read_grade(const Section& show, const Lookup& lookup) {
   const Section s(show.find("grade"), {"grade", "grade.cdl"});
-  GradeSettings grade;
-  grade.config = shipped_asset(kDomeConfig);
-  grade.shipped = true;
+  GradeSettings grade{.config = shipped_asset(kDomeConfig), .shipped = true};
   const std::string config = s.text("config");
   if (in_lower_case(config).starts_with("ocio://"))
     s.find("config")->fail(

@@ -102,7 +102,6 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.output = read_output(section);
 }
 
-// Gives a show the overlays of a list.
 void overlay(Show& show, const std::string& names) {
   if (names.empty()) return;
   try {

@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include "pipeline/show/file/keys.h"

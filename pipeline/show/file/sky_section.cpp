@@ -183,7 +183,6 @@ void read_catalogue(const Item& item, const Lookup& lookup, RegionSky& sky) {
   sky.stars = field;
 }
 
-// Reads the sky of region I or III into `sky`, which keeps what the section does not name.
 void read_region(const Section& section, SkyRegion region, const Lookup& lookup, RegionSky& sky) {
   read_background_keys(section, section.find("background"), region, lookup, sky.background);
   sky.background_gain = section.number("gain", sky.background_gain);
@@ -210,7 +209,6 @@ RegionSky default_sky(const Item& root, const Section& own, const Lookup& lookup
   return sky;
 }
 
-// Puts the planets among the stars of region I.
 void read_planets(const Item& item, Show& show) {
   const YearSpan known = years_of(SolarBody::kSun);
   auto& stars = show.sky[SkyRegion::kI].stars;

@@ -16,7 +16,6 @@ std::optional<TimedTrajectory> paced(const Section& s, const Trajectory& traject
 
 Timing timing_of(const Rate& rate) { return {0, rate.span, Pace::kSteady, rate.begin, rate.end}; }
 
-// Reads an observer at rest, near a hole at a given r and in flat space without one.
 std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "region", "static", "rates"});
   Timing timing{0, proper_time_in(stage, stage.duration_s)};
@@ -41,7 +40,6 @@ std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage,
   return TimedTrajectory{StaticObserver{*r, stage.spacetime}, timing, {mirrored}};
 }
 
-// Reads a circular orbit, whose end is given as a number of orbits or follows from a rate.
 std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "region", "circular", "rates", "pace"});
   find_end(s, {"orbits"});

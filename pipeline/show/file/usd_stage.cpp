@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
-#include <optional>
 #include <utility>
 
 #include "pipeline/base/errors.h"

@@ -98,7 +98,6 @@ void add_syntax_error(const YAML::ParserException& error, const std::string& tex
     problems.add(at, "this is not valid YAML: " + error.msg + odd_in_lines(text, at.line));
 }
 
-// Returns the number of four hexadecimal digits behind "\u", or nothing where there are none.
 std::optional<unsigned> escaped_unit(std::string_view text) {
   constexpr std::size_t kDigits = 4;
   if (!text.starts_with("\\u") || text.size() < 2 + kDigits) return std::nullopt;
@@ -108,7 +107,6 @@ std::optional<unsigned> escaped_unit(std::string_view text) {
   return error == std::errc() && stop == end ? std::optional(unit) : std::nullopt;
 }
 
-// Returns the character of a pair of escaped halves, as JSON writes those beyond U+FFFF.
 std::optional<unsigned> escaped_pair(std::string_view text) {
   constexpr std::size_t kEscape = 6;
   const auto high = escaped_unit(text);

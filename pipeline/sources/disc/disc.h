@@ -65,7 +65,7 @@ struct Disc {
   double opacity = 1;  // the part of the light from behind that it takes away, 0 to 1
   // This says whether matter falls in from the last stable orbit, and shines on its way.
   bool plunging = false;
-  std::optional<PatternKind> pattern;
+  std::optional<PatternKind> pattern{};
   // This says whether the pattern is seen as it was when the light left it.  Otherwise all of it is
   // seen at once, as it is when light that falls straight in passes the observer (t = v).
   bool slow_light = true;

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -58,7 +57,6 @@ class DiscPattern {
  public:
   explicit DiscPattern(const PatternKind& kind);
 
-  // Finds the factor at each place.
   void factors(std::span<const PatternPlace> places, std::span<float> out) const;
 
  private:

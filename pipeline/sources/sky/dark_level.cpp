@@ -56,7 +56,6 @@ std::vector<Patch> patches_of(const SkyMap& map) {
   return patches;
 }
 
-// Returns the patch with which this part of the sphere is reached, in ascending order of light.
 const Patch& at_part(const std::vector<Patch>& patches, double part) {
   double sphere = 0, below = 0;
   for (const Patch& patch : patches) sphere += patch.solid_angle;

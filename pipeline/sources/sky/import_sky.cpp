@@ -36,7 +36,6 @@ SkyOrigin written_origin(const SkyImport& import, const Orientation& orientation
           orientation, import.fainter_than};
 }
 
-// Makes a colour map of an equirectangular image, and returns the orientation that its file states.
 Orientation import_panorama(const SkyImport& import) {
   if (import.cmb) refuse_import(import, "the microwave background comes as a HEALPix map");
   const LightImage image = read_light_image(import.image, import.encoding);
@@ -56,7 +55,6 @@ Orientation import_panorama(const SkyImport& import) {
   return import.orientation;
 }
 
-// Returns the frame that the command gives, or else the one that the file states.
 SkyFrame frame_of(const SkyImport& import, const HealpixFile& file) {
   if (import.frame_given) return import.orientation.frame;
   // The FITS keyword COORDSYS has a letter (G, C, Q or E) or a word.

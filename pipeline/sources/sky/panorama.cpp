@@ -82,7 +82,6 @@ void paint_image(const ImageRgb<T>& image, const ColourMatrix& m, const M33d& to
   paint(level, painter, across);
 }
 
-// Returns an image of the means of `by` x `by` pixels.  The sides of `image` are multiples of `by`.
 FloatImage shrunk(const FloatImage& image, int by) {
   FloatImage small(image.width / by, image.height / by);
   const float part = 1.0f / static_cast<float>(by * by);

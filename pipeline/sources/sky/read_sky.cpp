@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 
 #include "pipeline/base/digest.h"
 #include "pipeline/base/errors.h"

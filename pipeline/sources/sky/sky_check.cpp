@@ -29,7 +29,6 @@ double light(const SkyMap& map, const V3d& direction, double footprint) {
   return luminance(map.sample(direction, footprint));
 }
 
-// Returns the direction at `angle` from d, turned about d by `turn`.
 V3d beside(const V3d& d, double angle, double turn) {
   // Within 26 degrees of the z axis the x axis stands in for it, so that the product never gets
   // short.
@@ -38,7 +37,6 @@ V3d beside(const V3d& d, double angle, double turn) {
   return std::cos(angle) * d + std::sin(angle) * (std::cos(turn) * aside + std::sin(turn) * across);
 }
 
-// Returns the light at twelve places on a circle about d, in ascending order.
 std::vector<double> ring(const SkyMap& map, const V3d& d, double angle, double footprint) {
   constexpr int kPlaces = 12;
   std::vector<double> around;
@@ -81,7 +79,6 @@ constexpr std::array<NamedPlace, 8> kClouds{{{"Large Magellanic Cloud", 80.9, -6
                                              {"Scutum Cloud", 281.3, -6.5, 1.5},
                                              {"Coalsack (dark)", 192.5, -62.9, 1.5, true}}};
 
-// Returns the light of a disc divided by the median of a ring around it.
 double contrast(const SkyMap& map, const V3d& d, double radius) {
   const std::vector<double> around = ring(map, d, 2.5 * radius, radius);
   return ratio(light(map, d, radius), around[around.size() / 2]);

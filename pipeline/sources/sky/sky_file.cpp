@@ -31,7 +31,6 @@ constexpr std::uint32_t kGalactic = 1, kLongitudeRight = 2, kSouthUp = 4, kNoPan
 constexpr std::string_view kExtension = ".sky";
 constexpr std::string_view kLimitLine = "stars: fainter than V = ";
 
-// Puts the limit of fainter_than into the text as its first line.
 SkyOrigin with_limit_line(SkyOrigin origin) {
   if (origin.fainter_than)
     origin.text = fmt::format("{}{:g}\n{}", kLimitLine, *origin.fainter_than, origin.text);
@@ -79,7 +78,6 @@ std::size_t header_bytes(std::size_t levels, std::size_t text) {
   return whole_pages(sizeof(Header) + levels * sizeof(LevelEntry) + text);
 }
 
-// Returns the length of a file whose finest level has this size, for a text of so many bytes.
 std::size_t file_bytes(int size, std::size_t text) {
   const std::vector<int> sizes = level_sizes(size);
   std::size_t bytes = header_bytes(sizes.size(), text);
@@ -129,7 +127,6 @@ std::optional<Orientation> panorama_of(const Header& h) {
   throw InputError(fmt::format("{}: byte {}: {}", path.string(), byte, what));
 }
 
-// Reads the fixed part of the header and checks what holds for any map.
 Header read_header(const std::filesystem::path& path, std::string_view file) {
   Header h;
   if (file.size() < sizeof h)
@@ -188,9 +185,8 @@ std::vector<LevelEntry> read_entries(const std::filesystem::path& path, const He
 
 // Returns the header of a map.  Its checksum and the length of the file are left to finish().
 Header sky_header(const SkyMap& map, const SkyOrigin& origin) {
-  Header h;
-  h.levels = static_cast<std::uint32_t>(map.levels().size());
-  h.text_bytes = static_cast<std::uint32_t>(origin.text.size());
+  Header h{.levels = static_cast<std::uint32_t>(map.levels().size()),
+           .text_bytes = static_cast<std::uint32_t>(origin.text.size())};
   h.header_bytes = static_cast<std::uint32_t>(header_bytes(h.levels, h.text_bytes));
   h.unit = map.unit();
   h.kind = static_cast<std::uint32_t>(map.kind());

@@ -77,7 +77,6 @@ struct FaceBox {
   std::array<float, 3> centre;  // of the cap: ahead, along u, along v
 };
 
-// Returns the texels of a face that a cap of radius `angle` about d may touch.
 FaceBox box_of(const V3d& d, int face, double angle, int n) {
   const int axis = face / 2;
   const double ahead = face % 2 ? -d[axis] : d[axis];

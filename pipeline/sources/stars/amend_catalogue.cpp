@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <unordered_map>
@@ -132,7 +131,6 @@ class Corrections {
     star.v = kRemoved;
   }
 
-  // Adds a star and makes it known to later rows, by its identifier or else by its name.
   void add() {
     CatalogueStar star;
     const std::string_view cell = row_.text("star");

@@ -74,7 +74,6 @@ const CatalogueFormat* guess_csv(std::string_view line) {
   return nullptr;
 }
 
-// Returns the first line of a text that is neither empty nor a comment.
 std::string_view first_line(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find_first_of("\r\n"));

@@ -24,7 +24,6 @@ constexpr NumberColumn kRa{1, 12, "RAhour", 0, 24}, kDec{14, 25, "DEdeg", -90, 9
 // The table has kNoMotion or kUnmeasured where nothing was measured.
 constexpr double kNoMotion = 999999, kUnmeasured = 99999, kFaintest = 40000;
 
-// Returns a magnitude, which the file gives in thousandths.
 std::optional<double> magnitude(const FixedColumns& line, const NumberColumn& column) {
   constexpr double kMillimagnitude = 1e-3;
   const auto value = line.number(column);
@@ -54,9 +53,7 @@ StarId identifier(const FixedColumns& line) {
 // Returns the star of a line.  V of a star that was measured in B alone is B less the assumed
 // colour.
 CatalogueStar read_star(const FixedColumns& line) {
-  CatalogueStar star;
-  star.pm_ra = motion(line, kPmRa);
-  star.pm_dec = motion(line, kPmDec);
+  CatalogueStar star{.pm_ra = motion(line, kPmRa), .pm_dec = motion(line, kPmDec)};
   // The file gives the places of J1991.25, and right ascension in hours.
   star.direction = moved(sky_direction(line.required(kRa) * kDegreesPerHour, line.required(kDec)),
                          star.pm_ra, star.pm_dec, 2000 - kEpoch);

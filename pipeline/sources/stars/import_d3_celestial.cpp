@@ -128,7 +128,6 @@ std::string entry_text(const json& entry, const char* key) {
   return found != entry.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-// Returns the Bayer designation or, for a star without one, that of Flamsteed.
 std::string designation(const json& entry) {
   std::string label = spelt_out(entry_text(entry, "bayer"));
   if (label.empty()) label = entry_text(entry, "flam");

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <fstream>
-
 #include "pipeline/base/errors.h"
 #include "pipeline/base/talk.h"
 #include "pipeline/sources/stars/catalogue_formats.h"
@@ -40,7 +37,6 @@ constexpr Photometry kMain{
 constexpr Photometry kSupplement{
     {84, 89, "BTmag", -5, 20}, {97, 102, "VTmag", -5, 20}, {116, 121, "HIP", 1, kLastHip}};
 
-// Reads magnitude, colour and Hipparcos number, and says whether either band was measured.
 bool read_photometry(const FixedColumns& line, const Photometry& columns, CatalogueStar& star) {
   const auto bt = line.number(columns.bt), vt = line.number(columns.vt);
   star.hip = line.whole(columns.hip);
@@ -58,11 +54,9 @@ bool read_photometry(const FixedColumns& line, const Photometry& columns, Catalo
 CatalogueStar start_of(const FixedColumns& line) {
   // whole() takes a blank column for 0, which is no part of an identifier.
   for (const NumberColumn& part : {kRegion, kNumber, kComponent}) line.required(part);
-  CatalogueStar star;
-  star.id = tycho_id(line.whole(kRegion), line.whole(kNumber), line.whole(kComponent));
-  star.pm_ra = static_cast<float>(line.number(kPmRa).value_or(0));
-  star.pm_dec = static_cast<float>(line.number(kPmDec).value_or(0));
-  return star;
+  return {.pm_ra = static_cast<float>(line.number(kPmRa).value_or(0)),
+          .pm_dec = static_cast<float>(line.number(kPmDec).value_or(0)),
+          .id = tycho_id(line.whole(kRegion), line.whole(kNumber), line.whole(kComponent))};
 }
 
 class Tycho {

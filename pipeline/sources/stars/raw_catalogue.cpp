@@ -1,7 +1,5 @@
 #include "pipeline/sources/stars/raw_catalogue.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>

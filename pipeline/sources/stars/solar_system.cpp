@@ -84,7 +84,6 @@ constexpr Orbits kLongOrbits{{
      {-0.00000003, -0.00003661, -0.01337178, 35999.37306329, 0.31795260, -0.24123856}},
 }};
 
-// Returns a vector of the ecliptic's axes in those of the equator.
 V3d from_ecliptic(const V3d& v) {
   const double c = std::cos(kObliquity), s = std::sin(kObliquity);
   return {v.x, c * v.y - s * v.z, s * v.y + c * v.z};

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <string>
 
 #include "pipeline/sources/stars/raw_catalogue.h"
 

@@ -125,7 +125,6 @@ void StarFile::fail_at(const StarRecord& record, const std::string& what) const 
        what);
 }
 
-// Returns a part of the file once its bounds and its checksum are right.
 std::string_view StarFile::part(std::uint64_t at, std::uint64_t size, std::uint64_t sum,
                                 const char* what) const {
   const std::string_view bytes = file_.bytes();

@@ -116,11 +116,10 @@ CatalogueStar gaia_faint(const char* bytes) {
 // V - 16 in steps of 0.02, and no motion.
 CatalogueStar gaia_faintest(const char* bytes) {
   constexpr double kTenths = 36000;
-  CatalogueStar star;
-  star.direction = place(three_bytes(bytes + 8) / kTenths, three_bytes(bytes + 11) / kTenths - 90);
-  star.colour = colour_of_b_v(0.025 * static_cast<unsigned char>(bytes[14]) - 1);
-  star.v = static_cast<float>(16 + 0.02 * static_cast<unsigned char>(bytes[15]));
-  return star;
+  return {
+      .direction = place(three_bytes(bytes + 8) / kTenths, three_bytes(bytes + 11) / kTenths - 90),
+      .v = static_cast<float>(16 + 0.02 * static_cast<unsigned char>(bytes[15])),
+      .colour = colour_of_b_v(0.025 * static_cast<unsigned char>(bytes[14]) - 1)};
 }
 
 }  // namespace

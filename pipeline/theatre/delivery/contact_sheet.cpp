@@ -15,7 +15,6 @@ namespace {
 
 constexpr int kSheetColumns = 6;
 
-// Returns the pixel of `from` at which part `k` of `to` begins.
 int part_begin(int k, int from, int to) {
   return static_cast<int>(static_cast<std::int64_t>(k) * from / to);
 }

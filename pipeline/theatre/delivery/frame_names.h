@@ -49,10 +49,8 @@ class DeliveredNames {
   std::string extension_;
 };
 
-// Returns the name of a number in a pattern.
 std::string name_of_number(const NamePattern& pattern, int number);
 
-// Returns the pattern as parse_name_pattern() reads it.
 std::string pattern_text(const NamePattern& pattern);
 
 }  // namespace domefall

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <numbers>
 
 #include "pipeline/base/ratio.h"
@@ -11,14 +10,12 @@
 namespace domefall {
 namespace {
 
-// Returns the line of a name, with the further lines of its text below that.
 std::string named_lines(const char* name, std::string_view text) {
   std::string lines = fmt::format("  {:<15}", name);
   for (const char c : text) lines += c == '\n' ? "\n" + std::string(17, ' ') : std::string(1, c);
   return lines + "\n";
 }
 
-// Returns the lines that say which projection the pictures have and how they are turned.
 std::string projection_text(const Projection& p) {
   const ProjectionTraits& traits = traits_of(p);
   const double degrees = field_of_view(p).value_or(0) * 180 / std::numbers::pi;

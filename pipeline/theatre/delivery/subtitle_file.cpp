@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::string_view kArrow = "-->";
 
-// Takes a number of `least` to `most` digits from the front of a text.
 std::optional<int> take_digits(std::string_view& text, std::size_t least, std::size_t most) {
   std::size_t count = 0;
   while (count < text.size() && text[count] >= '0' && text[count] <= '9') ++count;
@@ -86,7 +85,6 @@ bool is_index(std::string_view line) {
   return !line.empty() && line.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// Says whether a line begins as a time does, with digits and a colon.
 bool begins_with_time(std::string_view line) {
   const std::size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());
   return line.substr(digits).starts_with(':');

@@ -138,7 +138,6 @@ void draw_colours(Board& board, DrawingPoint middle) {
                kPrimaries);
 }
 
-// Writes the first line larger and with its middle at `first`, and the others below it.
 void write_lines(Board& board, const ShowLines& lines, DrawingPoint first, double letters,
                  double longest) {
   constexpr double kStep = 1.4, kTitle = 1.5;

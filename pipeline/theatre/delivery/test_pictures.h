@@ -23,7 +23,6 @@ GradedFrame alignment_frame(const Projection& projection, const ShowLines& lines
 // that is left.
 inline constexpr int kSlateSeconds = 3, kCountdownSeconds = 5;
 
-// Returns the number of frames of a leader at this rate.
 int leader_frames(double frames_per_second);
 
 // Draws frame k of the leader, from 0.  Everything stands at the front of a dome, around 35 degrees

@@ -33,7 +33,6 @@ constexpr std::array<NamedChannel, 10> kWaveChannels{{{"L", "FL", {"l", "left", 
                                                       {"T", "TC", {"t", "top"}}}};
 constexpr const char* kChannelNames = "L, R, C, LFE, Lb, Rb, Cs, Ls, Rs, T";
 
-// Returns the last word of a file's name without the extension, in lower case.
 std::string last_word(const fs::path& file) {
   const std::string stem = file.stem().string();
   return in_lower_case(stem.substr(stem.find_last_of("_-. ") + 1));

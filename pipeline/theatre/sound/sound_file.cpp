@@ -34,7 +34,6 @@ struct WaveChunks {
   WaveData wave;
 };
 
-// Takes in the chunk at `at`, whose head is `start`, and returns the size of its data.
 std::uint64_t take_chunk(const FileBytes& file, std::uint64_t at, const std::string& start,
                          bool large, WaveChunks& chunks) {
   constexpr std::uint64_t kLeastFormat = 16, kLeastLong = 16, kMostHead = 4096;
@@ -139,7 +138,6 @@ bool is_wave_file(const FileBytes& file) {
 
 constexpr const char* kFfmpegPackage = "ffmpeg";
 
-// Returns what follows `key` in lines of "key=value", or an empty text if there is none.
 std::string_view value_of(std::string_view text, std::string_view key) {
   const std::size_t at = text.find(key);
   if (at == std::string_view::npos) return {};

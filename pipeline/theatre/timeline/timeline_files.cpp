@@ -15,7 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Returns the first frame at or after an instant.
 int frame_at(const Show& show, double seconds) {
   constexpr double kRounding = 1e-6;  // of a frame, in sums of seconds
   return static_cast<int>(std::ceil(seconds * show.frames_per_second - kRounding));
@@ -155,7 +154,6 @@ class OtioWriter {
   Json media_;
 };
 
-// Returns HH:MM:SS:FF, counted by whole frames a second.
 std::string time_code(const Show& show, int frame) {
   constexpr int kMinute = 60, kHour = 3600, kStart = 1;  // hours
   const int rate = static_cast<int>(std::ceil(show.frames_per_second - 1e-9));

@@ -217,11 +217,10 @@ TEST(DomeCodes, AreTheSameForAnySplitIntoRows) {
 // ---- the displays of configurations ----
 
 GradeSettings shipped_for(Light light, const std::string& display, const std::string& view = "") {
-  GradeSettings settings;
-  settings.config = source_file("shows/assets/dome.ocio");
-  settings.shipped = true;
-  settings.display = display;
-  settings.view = view;
+  GradeSettings settings{.config = source_file("shows/assets/dome.ocio"),
+                         .shipped = true,
+                         .display = display,
+                         .view = view};
   settings.dome.light = light;
   return settings;
 }

@@ -14,10 +14,7 @@ namespace domefall {
 namespace {
 
 GradeSettings shipped(const std::string& view = "") {
-  GradeSettings settings;
-  settings.config = source_file("shows/assets/dome.ocio");
-  settings.view = view;
-  return settings;
+  return {.config = source_file("shows/assets/dome.ocio"), .view = view};
 }
 
 // One row: black, then growing greys, a stop apart.

@@ -16,12 +16,7 @@ inline constexpr const char* kDisplays[] = {
 inline constexpr const char* kViews[] = {"Dome", "ACES SDR", "Star field", "Un-tone-mapped", "Raw"};
 
 inline GradeSettings settings(const std::string& view, const std::string& display = kDisplays[0]) {
-  GradeSettings s;
-  s.config = kConfig;
-  s.shipped = true;
-  s.display = display;
-  s.view = view;
-  return s;
+  return {.config = kConfig, .shipped = true, .display = display, .view = view};
 }
 
 using Triple = std::array<double, 3>;

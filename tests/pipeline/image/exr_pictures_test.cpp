@@ -16,7 +16,6 @@
 #include <list>
 #include <vector>
 
-#include "pipeline/base/errors.h"
 #include "pipeline/image/encode/display_colour.h"
 #include "pipeline/image/read_image.h"
 #include "tests/pipeline/image/test_folder.h"

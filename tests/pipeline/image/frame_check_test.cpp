@@ -9,7 +9,6 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/temporary_file.h"
-#include "pipeline/image/encode/picture_writers.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/frame_head.h"
 #include "pipeline/image/graded_file.h"
@@ -227,9 +226,7 @@ TEST_F(FrameChecks, RefuseWhatIsNoFile) {
 
 TEST(FrameHead, SaysSizeAndBitsOfEveryKind) {
   const ScratchFolder folder;
-  GradedInfo info;
-  info.key = "0123";
-  info.title = "A show";
+  GradedInfo info{.key = "0123", .title = "A show"};
   for (const auto& [kind, name, bits] : {std::tuple{GradedKind::kPng16, "a.png", 16},
                                          {GradedKind::kPng8, "b.png", 8},
                                          {GradedKind::kTiff16, "a.tif", 16},

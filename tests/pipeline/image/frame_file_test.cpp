@@ -32,18 +32,16 @@ HalfFrame sample_frame() {
 }
 
 FrameInfo sample_info() {
-  FrameInfo info;
-  info.title = "Grüße, a \"title\"";
-  info.show = "00112233445566778899aabbccddeeff";
-  info.key = "0123456789abcdef0123456789abcdef";
-  info.frame = 42;
-  info.region = "II";
-  info.r = 1.0 / 3;
-  info.proper_time = 77.25;
-  info.frames_per_second = 30;
-  info.projection = "domemaster";
-  info.software = "Domefall";
-  return info;
+  return {.title = "Grüße, a \"title\"",
+          .show = "00112233445566778899aabbccddeeff",
+          .key = "0123456789abcdef0123456789abcdef",
+          .frame = 42,
+          .region = "II",
+          .r = 1.0 / 3,
+          .proper_time = 77.25,
+          .frames_per_second = 30,
+          .projection = "domemaster",
+          .software = "Domefall"};
 }
 
 WantedFrame wanted_sample() {
@@ -135,15 +133,13 @@ GradedFrame graded_sample() {
 }
 
 GradedInfo graded_info() {
-  GradedInfo info;
-  info.key = "fedcba98765432100123456789abcdef";
-  info.title = "two\nlines";
-  info.frame = 7;
-  info.display = "Dome";
-  info.view = "Dome";
-  info.software = "Domefall";
-  info.projection = "domemaster";
-  return info;
+  return {.key = "fedcba98765432100123456789abcdef",
+          .title = "two\nlines",
+          .frame = 7,
+          .display = "Dome",
+          .view = "Dome",
+          .software = "Domefall",
+          .projection = "domemaster"};
 }
 
 WantedFrame wanted_graded(int width, int height) {

@@ -3,7 +3,7 @@
 
 #include "pipeline/base/new_file.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mount.h>
 #include <sys/resource.h>

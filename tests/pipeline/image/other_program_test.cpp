@@ -3,7 +3,6 @@
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 
-#include "pipeline/base/errors.h"
 #include "pipeline/image/frame_check.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
@@ -106,9 +105,7 @@ TEST_F(OtherProgram, WritesNoFrameThatWeWouldKeepOrReplace) {
 }
 
 TEST_F(OtherProgram, SeesOnlyTheKeyWeMeantWhateverTheTitle) {
-  GradedInfo info;
-  info.title = "x\nkey: 00\rkey: 11";
-  info.key = "22";
+  GradedInfo info{.key = "22", .title = "x\nkey: 00\rkey: 11"};
   write_graded(folder_ / "g.tif", gradient<GradedFrame>(), info, {GradedKind::kTiff16});
   WantedFrame wanted{"22", info.title, "", kPictureWidth, kPictureHeight};
   EXPECT_EQ(check_frame(folder_ / "g.tif", wanted).condition, FrameCondition::kGood);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <OpenImageIO/imageio.h>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <lcms2.h>
 #include <zlib.h>
 

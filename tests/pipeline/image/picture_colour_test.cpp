@@ -3,7 +3,6 @@
 #include <lcms2.h>
 
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "pipeline/image/read_image.h"

@@ -6,7 +6,6 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "pipeline/light/emission_time_table.h"
 #include "pipeline/light/exact_azimuth.h"

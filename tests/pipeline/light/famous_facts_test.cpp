@@ -24,10 +24,8 @@ TEST(Redshift, IsLeastAtTheEdgesAndTendsToROverThreeRootThree) {
     for (const Edge edge : {Edge::kSilhouette, Edge::kRegionThree}) {
       double before = 0;
       for (double offset = 1e-13; offset < 1.4; offset *= 2) {
-        RayRequest q;
-        q.at = Radius(r);
-        q.edge = edge;
-        q.offset = edge == Edge::kSilhouette ? offset : -offset;
+        RayRequest q{
+            .at = Radius(r), .edge = edge, .offset = edge == Edge::kSilhouette ? offset : -offset};
         const double now = trace_ray(q, TraceMethod::kExact).one_plus_z;
         EXPECT_GT(now, before) << "1 + z grows away from the edge";
         before = now;

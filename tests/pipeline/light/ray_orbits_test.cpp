@@ -6,7 +6,6 @@
 #include <cstring>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "pipeline/base/simd/dispatch.h"
 #include "pipeline/light/exact_azimuth.h"

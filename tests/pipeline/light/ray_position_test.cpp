@@ -5,7 +5,6 @@
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "pipeline/light/exact_azimuth.h"
 #include "pipeline/light/orbit_cubic.h"

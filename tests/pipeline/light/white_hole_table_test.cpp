@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "pipeline/light/exact_azimuth.h"
 #include "tests/pipeline/light/singularity_rays.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/light/body_image.h"
 #include "pipeline/render/disc_scene.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/overlay/star_labels.h"

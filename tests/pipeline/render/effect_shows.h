@@ -1,7 +1,6 @@
 // Shows that leave some effects out, for the tests of effects, and tracers of their view rays.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>

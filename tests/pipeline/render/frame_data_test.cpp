@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "pipeline/render/frame_mattes.h"
 #include "pipeline/render/lens_map.h"

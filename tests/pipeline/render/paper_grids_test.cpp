@@ -1,6 +1,5 @@
 // The captions of those figures of [Riazuelo] that have no orbit in them, held against the shows of
 // shows/paper/.  Tolerances are half of a caption's last digit where no other reason is given.
-#include "pipeline/light/silhouette.h"
 #include "pipeline/sources/sky/formula_sky.h"
 #include "tests/pipeline/render/paper_figures.h"
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "pipeline/render/scene/exposure.h"
@@ -19,9 +18,7 @@ Show disc_show(int width = 160) {
   Show show = starry(show_of(CircularOrbit{14}, Stereographic{width, width * 3 / 4, 80 * kDegree}));
   show.spacetime = Schwarzschild{4e6};
   show.timeline[0].camera.attitude = LookAtHole{};
-  Disc disc;
-  disc.normal = {V3d(0.2, 0.3, 0.9).normalized()};
-  disc.node = {V3d(0.9, 0, -0.2).normalized()};
+  Disc disc{.normal = {V3d(0.2, 0.3, 0.9).normalized()}, .node = {V3d(0.9, 0, -0.2).normalized()}};
   show.disc = disc;
   return show;
 }

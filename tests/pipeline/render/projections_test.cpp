@@ -6,7 +6,6 @@
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/renderer.h"
 #include "tests/pipeline/render/scenes.h"
-#include "tests/sanitized.h"
 
 namespace domefall {
 namespace {

@@ -15,10 +15,9 @@ inline Show rich_show(const Projection& projection) {
   Show show = starry(show_of(StaticObserver{12}, projection));
   show.spacetime = Schwarzschild{4e6};
   show.timeline[0].camera.attitude = LookAtHole{};
-  Disc disc;
-  disc.opacity = 0.7;
-  disc.normal = {V3d(0.3, 0.2, 0.9).normalized()};
-  disc.node = {V3d(0.9, 0, -0.3).normalized()};
+  Disc disc{.normal = {V3d(0.3, 0.2, 0.9).normalized()},
+            .node = {V3d(0.9, 0, -0.3).normalized()},
+            .opacity = 0.7};
   show.disc = disc;
   Body body;
   body.trajectory = CircularOrbit{8};

@@ -145,9 +145,7 @@ TEST(MadeUpStars, AreAsManyByMagnitudeAsTycho2Has) {
 
 TEST(MadeUpStars, ComeBrightestFirstAndEvenlySpread) {
   const std::vector<CatalogueStar> stars = made_up_stars(100'000).stars;
-  EXPECT_TRUE(
-      std::is_sorted(stars.begin(), stars.end(),
-                     [](const CatalogueStar& a, const CatalogueStar& b) { return a.v < b.v; }));
+  EXPECT_TRUE(std::ranges::is_sorted(stars, {}, &CatalogueStar::v));
   V3d sum(0, 0, 0), squares(0, 0, 0);
   for (const CatalogueStar& star : stars) {
     const V3d& d = star.direction.v;

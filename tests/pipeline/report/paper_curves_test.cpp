@@ -6,7 +6,6 @@
 #include <numbers>
 #include <string_view>
 
-#include "pipeline/base/errors.h"
 #include "pipeline/report/report.h"
 
 namespace domefall {

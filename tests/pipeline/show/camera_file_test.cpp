@@ -6,7 +6,6 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/show/camera_world.h"
 #include "tests/pipeline/show/show_file.h"
-#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {

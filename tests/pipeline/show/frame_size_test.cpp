@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "tests/pipeline/image/test_folder.h"
 
 namespace domefall {

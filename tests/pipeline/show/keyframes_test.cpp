@@ -1,5 +1,4 @@
 // Tests of what changes during a show: cameras, exposure, skies.
-#include <cmath>
 
 #include "pipeline/light/aberration.h"
 #include "pipeline/show/attitude.h"

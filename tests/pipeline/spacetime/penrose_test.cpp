@@ -4,7 +4,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/kruskal_crossing.h"

@@ -58,12 +58,7 @@ class FollowedDisc {
 };
 
 Disc disc_from(double inner, double outer, double opacity, bool plunging = false) {
-  Disc disc;
-  disc.inner = inner;
-  disc.outer = outer;
-  disc.opacity = opacity;
-  disc.plunging = plunging;
-  return disc;
+  return {.inner = inner, .outer = outer, .opacity = opacity, .plunging = plunging};
 }
 
 // Outside, between the images, next to the light circle, inside both horizons, at rest, in free

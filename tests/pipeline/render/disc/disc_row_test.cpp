@@ -33,9 +33,7 @@ Drawn drawn_row(const DiscView& view, const Projection& projection) {
 }
 
 Disc disc_of(double opacity, bool plunging = false) {
-  Disc disc;
-  disc.opacity = opacity;
-  disc.plunging = plunging;
+  Disc disc{.opacity = opacity, .plunging = plunging};
   if (plunging) disc.inner = 2.5;
   return disc;
 }

@@ -1,7 +1,6 @@
 // Views of discs for the tests of rendering.
 #pragma once
 
-#include <array>
 #include <cmath>
 
 #include "pipeline/render/scene/exposure.h"

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include "pipeline/base/writer_id.h"
-#include "pipeline/image/frame_file.h"
 #include "pipeline/image/graded_file.h"
 #include "tests/pipeline/image/test_folder.h"
 

@@ -7,7 +7,6 @@
 
 #include "pipeline/render/overlay/frame_titles.h"
 #include "tests/pipeline/render/scenes.h"
-#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {

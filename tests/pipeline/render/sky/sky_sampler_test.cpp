@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
-
-#include "pipeline/base/simd/half_row.h"
 #include "pipeline/sources/colour/blackbody.h"
 #include "pipeline/sources/sky/panorama.h"
 #include "pipeline/sources/sky/sky_pyramid.h"

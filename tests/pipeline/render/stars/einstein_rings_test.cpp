@@ -1,4 +1,3 @@
-#include "pipeline/light/einstein_rings.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "pipeline/light/einstein_rings.h"
 #include "pipeline/render/blobs/cap_blob.h"
 #include "pipeline/render/stars/blackbody_table.h"
 #include "pipeline/sources/colour/blackbody.h"
@@ -79,12 +78,13 @@ std::vector<Expected> expected(const StarScene& scene, const SkyTable* table,
     const auto pixel =
         pixel_of(projection, {apply_transposed(o.tetrad_from_camera, seen.direction)});
     if (!pixel) continue;
-    Expected e;
-    e.image = {static_cast<float>(pixel->i - 1),
-               static_cast<float>(pixel->j - 1),
-               {static_cast<float>(c.r * flux * scale), static_cast<float>(c.g * flux * scale),
-                static_cast<float>(c.b * flux * scale)}};
-    e.peak = luminance(c) * flux * scale / (2 * std::numbers::pi * widths.least() * widths.least());
+    Expected e{
+        .image = {static_cast<float>(pixel->i - 1),
+                  static_cast<float>(pixel->j - 1),
+                  {static_cast<float>(c.r * flux * scale), static_cast<float>(c.g * flux * scale),
+                   static_cast<float>(c.b * flux * scale)}},
+        .peak =
+            luminance(c) * flux * scale / (2 * std::numbers::pi * widths.least() * widths.least())};
     if (e.peak > kFaintestPeak && is_in_frame(projection, widths, e.image)) all.push_back(e);
   }
   return all;

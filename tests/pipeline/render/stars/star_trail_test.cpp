@@ -4,7 +4,6 @@
 
 #include <map>
 
-#include "pipeline/light/einstein_rings.h"
 #include "tests/pipeline/render/stars/star_scene.h"
 #include "trajectories/static_observer.h"
 

@@ -15,12 +15,8 @@ namespace domefall {
 namespace {
 
 Disc disc_with(double t_max_k, bool plunging = false) {
-  Disc disc;
-  disc.inner = plunging ? 2 : 6;
-  disc.t_max_k = t_max_k;
-  disc.plunging = plunging;
-  disc.luminance = 0.004;
-  return disc;
+  return {
+      .inner = plunging ? 2.0 : 6.0, .t_max_k = t_max_k, .luminance = 0.004, .plunging = plunging};
 }
 
 double relative(float a, float b, const WorkingRgb& of) {

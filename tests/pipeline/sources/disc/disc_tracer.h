@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "pipeline/light/aberration.h"
 #include "pipeline/light/ray_position.h"

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/sources/colour/blackbody.h"
 #include "pipeline/sources/sky/healpix_map.h"
 #include "pipeline/sources/sky/read_sky.h"
 #include "tests/pipeline/image/gzipped.h"

@@ -10,7 +10,6 @@
 #include "pipeline/sources/sky/panorama.h"
 #include "pipeline/sources/stars/star_catalogue.h"
 #include "tests/source_tree.h"
-#include "trajectories/degree.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {

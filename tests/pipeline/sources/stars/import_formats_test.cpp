@@ -1,9 +1,7 @@
 // ASCC-2.5, HYG and Domefall's own tables.
 #include <cstdio>
 
-#include "pipeline/base/errors.h"
 #include "tests/pipeline/sources/stars/importing.h"
-#include "trajectories/equatorial.h"
 
 namespace domefall {
 namespace {

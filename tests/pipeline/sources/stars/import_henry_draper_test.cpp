@@ -3,10 +3,7 @@
 // catalogue.
 #include <cstdio>
 
-#include "pipeline/base/errors.h"
-#include "pipeline/sources/stars/star_catalogue.h"
 #include "pipeline/sources/stars/star_colour.h"
-#include "tests/pipeline/image/test_folder.h"
 #include "tests/pipeline/sources/stars/importing.h"
 
 namespace domefall {

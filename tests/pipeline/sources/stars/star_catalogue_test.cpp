@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <utility>
 #include <vector>
 
-#include "pipeline/base/errors.h"
 #include "pipeline/sources/stars/raw_catalogue.h"
 #include "pipeline/sources/stars/star_file.h"
 #include "tests/pipeline/image/test_folder.h"

@@ -1,4 +1,3 @@
-#include "pipeline/base/errors.h"
 #include "pipeline/sources/stars/amend_catalogue.h"
 #include "pipeline/sources/stars/raw_catalogue.h"
 #include "tests/pipeline/image/test_folder.h"

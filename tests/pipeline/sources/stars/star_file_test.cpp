@@ -23,12 +23,12 @@ RawCatalogue some_stars() {
   std::uniform_real_distribution<double> ra(0, 360), sine(-1, 1);
   RawCatalogue catalogue;
   for (int i = 0; i < kStars; ++i) {
-    CatalogueStar star;
-    star.direction = sky_direction(ra(random), std::asin(sine(random)) * 180 / 3.141592653589793);
-    star.v = static_cast<float>((i * 7919 % kStars) * 1e-3 - 1);
-    star.colour = i % 10 == 0 ? kNoColour : static_cast<float>(i % 20) * 0.1F;
-    star.pm_ra = static_cast<float>(i % 5);
-    star.id = hipparcos_id(static_cast<std::uint32_t>(i) + 1);
+    CatalogueStar star{
+        .direction = sky_direction(ra(random), std::asin(sine(random)) * 180 / 3.141592653589793),
+        .pm_ra = static_cast<float>(i % 5),
+        .v = static_cast<float>((i * 7919 % kStars) * 1e-3 - 1),
+        .colour = i % 10 == 0 ? kNoColour : static_cast<float>(i % 20) * 0.1F,
+        .id = hipparcos_id(static_cast<std::uint32_t>(i) + 1)};
     catalogue.stars.push_back(star);
   }
   catalogue.names = {{0, "First"}, {0, "alpha First"}, {kStars - 1, "Last"}};
@@ -76,13 +76,10 @@ TEST_F(StarFiles, ComeBackAsTheyWereWritten) {
 TEST_F(StarFiles, AreBrightestFirstAndCutAtTheLimit) {
   for (const double limit : {-2.0, -1.0, 0.5, 3.095, 3.096, 7.0, 8.999, 20.0}) {
     const StarCatalogue read = read_star_catalogue(file_, limit);
-    const auto kept =
-        std::count_if(written_.stars.begin(), written_.stars.end(),
-                      [&](const auto& s) { return s.v <= static_cast<float>(limit); });
+    const auto kept = std::ranges::count_if(
+        written_.stars, [&](const auto& s) { return s.v <= static_cast<float>(limit); });
     EXPECT_EQ(static_cast<std::ptrdiff_t>(read.stars.size()), kept) << limit;
-    EXPECT_TRUE(
-        std::is_sorted(read.stars.begin(), read.stars.end(),
-                       [](const Star& a, const Star& b) { return a.v_magnitude < b.v_magnitude; }));
+    EXPECT_TRUE(std::ranges::is_sorted(read.stars, {}, &Star::v_magnitude));
   }
 }
 

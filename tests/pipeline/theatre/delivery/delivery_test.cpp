@@ -1,5 +1,6 @@
 // What a delivery has beside its frames: names, checksums and pictures.
-#include <gmock/gmock.h>
+
+#include <gtest/gtest.h>
 
 #include <fstream>
 #include <numbers>

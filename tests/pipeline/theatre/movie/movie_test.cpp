@@ -154,11 +154,10 @@ TEST(MoviePreset, AnUnknownOneIsRefusedWithWhatThereIs) {
 
 // The tags of codes of the shipped configuration.
 ColourTags tags_for(const std::string& display, const std::string& view = "") {
-  GradeSettings settings;
-  settings.config = source_file("shows/assets/dome.ocio");
-  settings.shipped = true;
-  settings.display = display;
-  settings.view = view;
+  GradeSettings settings{.config = source_file("shows/assets/dome.ocio"),
+                         .shipped = true,
+                         .display = display,
+                         .view = view};
   return tags_of(Grader(settings).colour());
 }
 
