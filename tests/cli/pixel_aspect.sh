@@ -20,6 +20,15 @@ done
 oiiotool --info -v made/graded/wide_00000.png >facts
 [ "$(grep -Eo '[XY]Resolution: .*' facts | tr '\n' ' ')" = 'XResolution: 11 YResolution: 16 ' ] || fail "$(cat facts)"
 
+# A point on the picture's lower edge, 11/20 of the width of view below its middle, is there to Nuke.
+oiiotool --info -v made/linear/wide_00000.exr >facts
+python3 - facts <<'END'
+import re, sys
+m = [float(x) for x in re.search(r"worldToNDC: ([-0-9., e]+)", open(sys.argv[1]).read())[1].split(",")]
+x, y, _, w = [sum(p * m[4 * k + c] for k, p in enumerate([0, -11 / 20, -1, 1])) for c in range(4)]
+assert abs(x / w - 0.5) < 1e-6 and abs(y / w - 1) < 1e-6, m
+END
+
 # A second run finds its frames, and other pixels are another version of them.
 exits 0 "$DOMEFALL" render wide.yaml --out made
 says '^0 frames made, 2 already there'

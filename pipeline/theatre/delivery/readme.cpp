@@ -34,7 +34,8 @@ std::string pictures_text(const Delivery& d) {
       d.names.path(d.names.count() - 1).filename().string(), rate_text(d.rate), duration_s(d),
       columns(d.projection), rows(d.projection), bits_of(d.format), 3 * bits_of(d.format));
   if (const double aspect = pixel_aspect(d.projection); aspect != 1)
-    text += fmt::format("                 pixels are {} as wide as high\n", ratio_text(aspect));
+    text += fmt::format("                 the width of a pixel is to its height as {}\n",
+                        ratio_text(aspect));
   if (d.names.count() > kMostDeliveredInFolder)
     text += "                 10,000 frames to a folder, which is named after its first and last\n";
   text += projection_text(d.projection);

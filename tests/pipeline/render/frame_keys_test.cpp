@@ -26,6 +26,15 @@ void expect_other_keys(const Show& show, const Changes& changes) {
   }
 }
 
+TEST(FrameKeys, KnowPixelsThatAreNotSquare) {
+  const Show show = show_of(StaticObserver{10}, Stereographic{64, 48, 1.5});
+  expect_other_keys(show, {[](Show& s) { s.projection = with_pixel_aspect(s.projection, 2); },
+                           [](Show& s) { s.projection = with_pixel_aspect(s.projection, 0.9); }});
+  Show again = show;
+  again.projection = with_pixel_aspect(show.projection, 1);
+  EXPECT_EQ(key_of(again), key_of(show));
+}
+
 TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
   Show show = at_ten();
   show.sky[SkyRegion::kIV].background = RingsSky{4};
