@@ -123,7 +123,8 @@ void put_means(const LayeredFrame<T>& image, const PixelParts& parts, const Proj
   const float share = 1 / static_cast<float>(parts.across * parts.down);
   const int width = frame.picture.width;
   each_plane(image, frame, [&](const auto& from, auto& to, int channels) {
-    if (from.empty()) return;
+    // A layer may be empty now that was not in the frame before.
+    if (from.empty()) return to.clear();
     to.resize(static_cast<std::size_t>(std::ptrdiff_t{width} * channels * frame.picture.height));
     tbb::parallel_for(0, frame.picture.height, [&](int row) {
       const ColumnRange inside = inside_columns(projection, row);

@@ -77,6 +77,18 @@ TEST(PixelAspectFrames, HavePairsOfSquarePixels) {
     }
 }
 
+// A frame's memory is used again, and what was drawn into it is gone.
+TEST(PixelAspectFrames, AreTheSameInMemoryOfAnother) {
+  const Show show = rich_show(Stereographic{40, 72, 1.9, 2});
+  LayeredFloatFrame frame(kAllLayers);
+  Renderer renderer(show, 1);
+  renderer.render(frame_state(show, 0), frame);
+  const std::vector<float> titles = frame.find(Layer::kTitles)->light.pixels;
+  EXPECT_GT(mean_of(titles), 1e-3);
+  renderer.render(frame_state(show, 0), frame);
+  EXPECT_EQ(frame.find(Layer::kTitles)->light.pixels, titles);
+}
+
 // At the rim of a fisheye's circle, pixels whose middle lies beyond it are black.
 TEST(PixelAspectFrames, OfAFisheyeEndAtItsCircle) {
   const Projection p = Fisheye{36, 72, 2.5, 0.25, 2}, square = Fisheye{72, 72, 2.5, 0.25};
