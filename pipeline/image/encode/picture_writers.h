@@ -40,7 +40,7 @@ struct TiffHead {
   bool eight_bits = false;  // dithered (dither.h)
   int frame = 0;            // for the noise
   std::string description;
-  std::string profile;      // ICC; empty for none
+  std::string profile{};    // ICC; empty for none
   OpaqueColumns opaque{};   // without it there is no alpha
   double pixel_aspect = 1;  // width over height, as resolutions where it is not 1
 };
@@ -54,8 +54,8 @@ inline constexpr std::size_t kLongestJpegComment = 65533;
 struct JpegHead {
   int quality = 95;         // 1 to 100, libjpeg's scale
   int frame = 0;            // for the noise of the dithering (dither.h)
-  std::string profile;      // ICC; empty for none
-  std::string comment;      // of at most kLongestJpegComment bytes
+  std::string profile{};    // ICC; empty for none
+  std::string comment{};    // of at most kLongestJpegComment bytes
   double pixel_aspect = 1;  // width over height, as the densities of JFIF
 };
 
