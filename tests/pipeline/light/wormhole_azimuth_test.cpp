@@ -13,6 +13,7 @@
 
 #include "tests/pipeline/light/random_rays.h"
 #include "tests/source_tree.h"
+#include "trajectories/wormhole_path.h"
 
 namespace domefall {
 namespace {
@@ -140,6 +141,26 @@ TEST(WormholeAzimuth, IsThatOfRaysThatAreFollowed) {
                             << w.length << " " << int(w.profile) << " " << followed;
   }
   RecordProperty("worst", std::to_string(worst * 1e9) + "e-9");
+}
+
+// Free fall has the same curves at any speed, by other sums: for ellis by no elliptic integral.
+TEST(WormholeAzimuth, IsThatOfFreeFallWithTheSameImpact) {
+  double worst = 0;
+  for (const Wormhole& w : {Wormhole{1, Profile::kEllis}, Wormhole{1, Profile::kDngr, 0, 0.05},
+                            Wormhole{1, Profile::kDngr, 4, 1.1}})
+    for (const double l : {-30.0, -2.3, 0.8, 5.0})
+      for (const double offset : {-0.4, -0.02, -1e-4, 1e-4, 0.01, 0.3}) {
+        const HalfAngle half = throat_edge(w, l);
+        const double delta = 2 * std::atan2(half.sine, half.cosine) + offset;
+        if (delta < 0) continue;
+        const double b = w.radius(l) * std::sin(delta);
+        const WormholeFall fall(w, l, 0.5, b, std::cos(delta) > 0);
+        const double error = std::abs(fall.at(1e40).azimuth / wormhole_azimuth(w, l, offset) - 1);
+        worst = std::max(worst, error * std::abs(1 - b));
+        // b has rounded 1 - b.
+        EXPECT_LT(error, 1e-14 + 1e-15 / std::abs(1 - b)) << l << " " << offset;
+      }
+  RecordProperty("worst", std::to_string(worst * 1e12) + "e-12");
 }
 
 // Rays that miss the throat at a radius of l, as in flat space, sweep pi - delta.
