@@ -91,18 +91,18 @@ WormholeFall::WormholeFall(const Wormhole& wormhole, double from_l, double speed
                            bool inward) {
   require_above("speed", "fraction of c", speed, 0, "what rests does not fall in a wormhole");
   require_below("speed", "fraction of c", speed, 1, "nothing outruns light");
-  require_at_least("impact", "radii of the throat", impact, 0, "the azimuth grows");
+  require_at_least("impact_parameter", "radii of the throat", impact, 0, "the azimuth grows");
   if (!(std::abs(from_l) <= kFarthestFall))
     throw std::domain_error("from_l must be from -1e12 to 1e12 (radii of the throat), got " +
                             short_number(from_l));
   if (impact == 1)
     throw std::domain_error(
-        "impact must not be 1 (radii of the throat): with it the path circles for ever");
+        "impact_parameter must not be 1 (radii of the throat): with it the path circles for ever");
   const double r = wormhole.radius(from_l);
   if (!(impact <= r))
-    throw std::domain_error(
-        fmt::format("impact must be at most {} (radii of the throat), the r of from_l, got {}",
-                    short_number(r), short_number(impact)));
+    throw std::domain_error(fmt::format(
+        "impact_parameter must be at most {} (radii of the throat), the r of from_l, got {}",
+        short_number(r), short_number(impact)));
   const WormholeLeg leg(wormhole, impact, 1 - impact);
   const double far = 4 * kFarthestFall;
   const double last_u = leg.parameter(far, wormhole.above_throat(far) + (1 - impact)) + kFallEnds;
@@ -149,6 +149,23 @@ std::optional<ProperTime> WormholeFall::time_at(double r, Leg leg, const ProperT
   const double length = t.length_of(t.wormhole.distance(r - 1));
   const ProperTime tau = ((leg == Leg::kInward ? -length : length) - t.start) / t.celerity;
   return tau >= after ? std::optional(tau) : std::nullopt;
+}
+
+std::optional<ProperTime> WormholeFall::time_at_l(double l, const ProperTime& after) const {
+  const Tables& t = *tables_;
+  const double r = t.wormhole.radius(l);
+  if (!(r >= reach().first)) return std::nullopt;
+  const bool beyond = l * t.from_side < 0;
+  if (!passes() && beyond) return std::nullopt;
+  for (const Leg leg : {Leg::kInward, Leg::kOutward}) {
+    // Who passes is on each side on one leg alone.
+    const bool inward = leg == Leg::kInward;
+    if (passes() && inward != (l * t.heading < 0)) continue;
+    const double length = t.length_of(l);
+    const ProperTime tau = ((inward ? -length : length) - t.start) / t.celerity;
+    if (tau >= after) return tau;
+  }
+  return std::nullopt;
 }
 
 std::pair<double, double> WormholeFall::reach() const {

@@ -50,6 +50,8 @@ class WormholeFall {
   static double death() { return kInfinity; }
   // Returns the proper time at which r is passed on that leg.  r = 1 is that at the mouths.
   std::optional<ProperTime> time_at(double r, Leg leg, const ProperTime& after = -kInfinity) const;
+  // Returns the first proper time >= after at which l is passed, or nothing if it never is.
+  std::optional<ProperTime> time_at_l(double l, const ProperTime& after = -kInfinity) const;
   std::pair<double, double> reach() const;
 
  private:

@@ -153,6 +153,25 @@ TEST(WormholeFall, BeginsWhereItIsToldAndTellsItsTimes) {
   }
 }
 
+TEST(WormholeFall, TellsWhenALengthIsPassed) {
+  for (const Fall& fall : some_falls()) {
+    const WormholeFall path = fall.make();
+    for (const double l : {-20.0, -2.9, -0.001, 0.0, 1.5, 30.0}) {
+      const auto tau = path.time_at_l(l);
+      const bool there =
+          path.passes() || (l * fall.from_l > 0 && fall.wormhole.radius(l) >= fall.impact);
+      ASSERT_EQ(tau.has_value(), there) << l << " " << fall.from_l << " " << fall.impact;
+      if (!tau) continue;
+      EXPECT_NEAR(path.at(*tau).l, l, 1e-12 * (1 + std::abs(l))) << fall.impact;
+      const auto again = path.time_at_l(l, double(*tau) + 1e-9 * (1 + std::abs(double(*tau))));
+      EXPECT_EQ(again.has_value(), !path.passes());
+      if (again) {
+        EXPECT_NEAR(path.at(*again).l, l, 1e-12 * (1 + std::abs(l)));
+      }
+    }
+  }
+}
+
 // Who falls along a radius moves evenly: nothing pulls.
 TEST(WormholeFall, AlongARadiusIsEven) {
   const WormholeFall path({1, Profile::kDngr, 2, 0.3}, 8, 0.6, 0, true);
