@@ -78,11 +78,12 @@ double swept_to(const WormholeLeg& leg, double start) {
 
 // Where the integrand is as good as exp(-u) the panels grow.
 double swept_beyond(const WormholeLeg& leg, double start) {
-  constexpr double kLost = 40;  // exp(-40) is nothing
+  constexpr double kLost = 40;     // exp(-40) is nothing
+  constexpr double kGrowth = 2.2;  // three panels more
   const double calm = leg.calm(), end = std::max(start, calm) + kLost;
   double sum = 0, width = kLegPanel;
   for (double u = start; u < end; u += width) {
-    if (u > calm + kLegPanel) width = std::min(2 * width, 6 * kLegPanel);
+    if (u > calm + kLegPanel) width *= kGrowth;
     sum += swept(leg, u, u + width);
   }
   return sum;

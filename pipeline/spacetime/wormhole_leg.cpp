@@ -18,6 +18,15 @@ double way_from_turn(double x, double turn, double growth) {
   return way;
 }
 
+// These are sinh and cosh by one exponential, right to rounding also for small u.
+struct Hyperbola {
+  double sine, cosine;
+};
+Hyperbola hyperbola(double u) {
+  const double above = std::expm1(u), back = above / (1 + above);  // 1 - exp(-u)
+  return {(above + back) / 2, 1 + (above - back) / 2};
+}
+
 }  // namespace
 
 WormholeLeg::WormholeLeg(const Wormhole& wormhole, double b, double one_minus_b)
@@ -37,19 +46,22 @@ WormholeLeg::WormholeLeg(const Wormhole& wormhole, double b, double one_minus_b)
 
 WormholeLeg::Place WormholeLeg::at(double u) const {
   if (ellis_) {
-    const double y = scale_ * (turns_ ? std::cosh(u) : std::sinh(u)), r = std::hypot(1, y);
-    const double rises = scale_ * (turns_ ? std::sinh(u) : std::cosh(u)) / r;
+    const Hyperbola h = hyperbola(u);
+    const double y = scale_ * (turns_ ? h.cosine : h.sine), r = std::hypot(1, y);
+    const double rises = scale_ * (turns_ ? h.sine : h.cosine) / r;
     return {y, r, rises * rises, r};
   }
   if (turns_) {
-    const double half = std::sinh(u / 2), turn = scale_ / unit_;
-    const double risen = m_ * flare_growth(turn, 2 * turn * half * half);  // r - b
+    const Hyperbola half = hyperbola(u / 2);
+    const double grown = 2 * half.sine * half.sine, turn = scale_ / unit_;
+    const double risen = m_ * flare_growth(turn, turn * grown);  // r - b
     const double r = b_ + risen, rise = risen * (r + b_) / (r * r);
-    return {scale_ * std::cosh(u), r, rise, scale_ * std::sinh(u) / std::sqrt(rise)};
+    return {scale_ * (1 + grown), r, rise, 2 * scale_ * half.sine * half.cosine / std::sqrt(rise)};
   }
-  const double y = scale_ * std::sinh(u), risen = m_ * flare(y / unit_), r = 1 + risen;
+  const Hyperbola h = hyperbola(u);
+  const double y = scale_ * h.sine, risen = m_ * flare(y / unit_), r = 1 + risen;
   const double rise = (below_ + risen) * (r + b_) / (r * r);
-  return {y, r, rise, scale_ * std::cosh(u) / std::sqrt(rise)};
+  return {y, r, rise, scale_ * h.cosine / std::sqrt(rise)};
 }
 
 double WormholeLeg::parameter(double y, double r_less_b) const {
