@@ -1,5 +1,7 @@
 // Reads the wormhole of a show, and trajectories in it.
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "pipeline/show/file/orbit_reading.h"
@@ -44,24 +46,6 @@ std::optional<TimedTrajectory> read_circle(const Item& item, const Stage& stage)
   return paced_circle(item, s, stage, WormholeCircle{wormhole, *l, *speed}, turn, *rate, false);
 }
 
-// Returns the proper time at which a fall is at l, after its beginning.
-std::optional<ProperTime> time_at_l(const WormholeFall& fall, double from_l, double l,
-                                    double latest) {
-  const auto beyond = [&](double tau) {
-    const double at = fall.at(tau).l;
-    return from_l > l ? at <= l : at >= l;
-  };
-  double low = 0, high = 1;
-  while (!beyond(high)) {
-    if (high > latest) return std::nullopt;
-    low = high;
-    high *= 2;
-  }
-  for (double middle = (low + high) / 2; low < middle && middle < high; middle = (low + high) / 2)
-    (beyond(middle) ? high : low) = middle;
-  return high;
-}
-
 std::optional<TimedTrajectory> read_fall(const Item& item, const Stage& stage) {
   const Section s(item, {"trajectory", "infall in a wormhole", "rates", "pace"});
   const Item* given = find_end(s, {"to_l"});
@@ -75,9 +59,8 @@ std::optional<TimedTrajectory> read_fall(const Item& item, const Stage& stage) {
   if (!fall) return std::nullopt;
   Timing timing{0, proper_time_in(stage, stage.duration_s)};
   if (to_l) {
-    constexpr double kLatest = 1e20;
-    const auto end = time_at_l(*fall, *from_l, *to_l, kLatest);
-    if (!end || !(*end > ProperTime(0))) {
+    const auto end = fall->time_at_l(*to_l, std::numeric_limits<double>::min());
+    if (!end) {
       s.find("to_l")->fail(
           "is where this fall does not come; with impact_parameter above 1 it turns "
           "before the throat");
