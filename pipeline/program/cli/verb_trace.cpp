@@ -14,6 +14,7 @@
 #include "pipeline/program/cli/number_in.h"
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/verbs.h"
+#include "pipeline/program/cli/wormhole_ray_table.h"
 
 namespace domefall {
 namespace {
@@ -135,7 +136,13 @@ void add_trace(CLI::App& app) {
              "of the integrators, relative, each step, 1e-13 to 1e-3; a ray nearer to an "
              "edge than that may lose its origin",
              1e-13, 1e-3);
-  verb->callback([table, method, options] { trace(*table, trace_method(*method), *options); });
+  verb->callback([table, method, options] {
+    const TraceMethod by = trace_method(*method);
+    if (!is_wormhole_ray_table(CsvFile(*table))) return trace(*table, by, *options);
+    if (is_integrator(by))
+      throw InputError("rays in a wormhole are traced by table or exact, not by an integrator");
+    trace_wormhole_rays(*table, by == TraceMethod::kTable);
+  });
 }
 
 }  // namespace domefall
