@@ -23,13 +23,21 @@ Long ChargedView::tan_half_critical(Critical edge) const {
   return edge == Critical::kFirst ? edges_.first : std::abs(edges_.second);
 }
 
+// This is |second| - first, which between the horizons is no difference of close numbers.
+Long ChargedView::tangents_apart() const {
+  return f_ < 0 ? -2 * at_.r * inverse_kappa_ : edges_.apart;
+}
+
+Long ChargedView::between_edges() const {
+  return 2 * std::atan2(std::abs(tangents_apart()), 1 + std::abs(f_));
+}
+
 ChargedRay ChargedView::completed(Long sine, Long cosine, Long gap, Critical edge) const {
   const bool first = edge == Critical::kFirst;
   // The far end of the view (alpha = pi or 0) is an end that rounding may not step over.
   ChargedRay ray{std::max(Long{0}, sine), std::max(Long{0}, cosine), gap, gap};
   if (!has_edges()) return ray;
-  const Long between = f_ < 0 ? -2 * at_.r * inverse_kappa_ : edges_.apart;
-  const Long apart = (first ? -between : between) * ray.cos_half;
+  const Long apart = (first ? -tangents_apart() : tangents_apart()) * ray.cos_half;
   const Long reach = tan_half_critical(first ? Critical::kSecond : Critical::kFirst) * ray.cos_half;
   const bool direct = std::max(ray.sin_half, reach) < std::max(std::abs(gap), std::abs(apart));
   (first ? ray.gap_second : ray.gap_first) = direct ? ray.sin_half - reach : gap + apart;
@@ -40,7 +48,7 @@ ChargedRay ChargedView::ray_at(const PolarAngle& alpha) const {
   const bool small = alpha.angle < alpha.rest;
   const Long sine = small ? std::sin(alpha.angle / 2) : std::cos(alpha.rest / 2);
   const Long cosine = small ? std::cos(alpha.angle / 2) : std::sin(alpha.rest / 2);
-  if (!has_edges()) return {sine, cosine, 0, 0};
+  if (!has_edges()) return completed(sine, cosine, 0, Critical::kFirst);
   // Angles are taken from whichever end of the half turn is nearer.
   const auto gap = [&](Critical edge) {
     const Long tangent = tan_half_critical(edge);

@@ -47,6 +47,10 @@ class ChargedView {
   // Returns tan(alpha/2) of one.  kSecond is that of -kappa between the horizons.
   long double tan_half_critical(Critical edge) const;
 
+  // Returns the angle between the two, in alpha, or between the complex ones below r_x.  Light must
+  // be able to circle.
+  long double between_edges() const;
+
   ChargedRay ray_at(const PolarAngle& alpha) const;
   // Returns the ray at alpha = edge + offset in [0, pi].  The offset has full relative accuracy.
   ChargedRay ray_off_edge(Critical edge, double offset) const;
@@ -68,6 +72,7 @@ class ChargedView {
 
  private:
   ChargedRay completed(long double sine, long double cosine, long double gap, Critical edge) const;
+  long double tangents_apart() const;
   long double radial(const ChargedRay& ray) const;  // k^r
   // Returns E^2 - L^2/kappa^2, or E^2 where light cannot circle.
   long double below_critical(const ChargedRay& ray) const;

@@ -17,22 +17,24 @@ using Complex = std::complex<Long>;
 Long carlson(const Complex& u, const Complex& v, const Complex& w) {
   Complex x = (u + v) * (u + w) / Long{4}, y = (u + v) * (v + w) / Long{4},
           z = (u + w) * (v + w) / Long{4};
-  for (;;) {
+  Complex a, b, c;  // relative differences from the mean
+  for (int k = 0; k < 200; ++k) {
     const Complex mean = (x + y + z) / Long{3};
-    const Complex a = Long{1} - x / mean, b = Long{1} - y / mean, c = -(a + b);
-    if (std::max({std::norm(a), std::norm(b), std::norm(c)}) < 4e-6L) {
-      const Complex e2 = a * b - c * c, e3 = a * b * c;
-      const Complex sum = Long{1} - e2 / Long{10} + e3 / Long{14} + e2 * e2 / Long{24} -
-                          Long{3} / 44 * e2 * e3 - Long{5} / 208 * e2 * e2 * e2 +
-                          Long{3} / 104 * e3 * e3 + e2 * e2 * e3 / Long{16};
-      return (sum / std::sqrt(mean)).real();
-    }
+    a = Long{1} - x / mean;
+    b = Long{1} - y / mean;
+    c = -(a + b);
+    if (std::max({std::norm(a), std::norm(b), std::norm(c)}) < 4e-6L) break;
     const Complex rx = std::sqrt(x), ry = std::sqrt(y), rz = std::sqrt(z);
     const Complex all = rx * ry + ry * rz + rz * rx;
     x = (x + all) / Long{4};
     y = (y + all) / Long{4};
     z = (z + all) / Long{4};
   }
+  const Complex e2 = a * b - c * c, e3 = a * b * c;
+  const Complex sum = Long{1} - e2 / Long{10} + e3 / Long{14} + e2 * e2 / Long{24} -
+                      Long{3} / 44 * e2 * e3 - Long{5} / 208 * e2 * e2 * e2 +
+                      Long{3} / 104 * e3 * e3 + e2 * e2 * e3 / Long{16};
+  return (sum / std::sqrt((x + y + z) / Long{3})).real();
 }
 
 // ---- roots ----
