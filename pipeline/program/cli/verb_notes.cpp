@@ -147,7 +147,13 @@ std::vector<VerbNotes> notes_of_numbers() {
        "column psi, r_there is the ray's r after sweeping that angle, followed back\n"
        "in time, and null_time the place's time v less the observer's (u for outgoing\n"
        "and T_IV; M), where v = t + r + 2 ln|r/2 - 1| and u = t - r - 2 ln|r/2 - 1|.\n"
-       "Both are empty where the ray has ended.",
+       "Both are empty where the ray has ended.\n"
+       "Near a charge (q = charge M, at most 1 for a black hole) the observer moves as\n"
+       "the tetrad T of l + n/2, which is regular on the horizons that it falls through;\n"
+       "theta is his place and eta the light's direction about -R, from Theta to Phi.\n"
+       "The answer is the origin (I, III, H for the past horizon, B for nowhere; beyond,\n"
+       "for H: E for an earlier universe's sky), the place on that sky, shift,\n"
+       "amplification, turns in theta, and Mino's time.",
        {{"domefall trace --table rays.csv --method exact >traced.csv", "by elliptic integrals"}},
        "accuracy.md"},
       {"report",

@@ -11,6 +11,7 @@
 #include "pipeline/base/csv_file.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/light/ray_request.h"
+#include "pipeline/program/cli/charged_ray_table.h"
 #include "pipeline/program/cli/number_in.h"
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/verbs.h"
@@ -94,6 +95,12 @@ void print_cell(double value) {
 }
 
 void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
+  if (is_charged_ray_table(CsvFile(file))) {
+    if (is_integrator(method))
+      throw InputError("rays near a charge are traced by table or exact, not by an integrator");
+    trace_charged_rays(file);
+    return;
+  }
   RayTable table(file);
   const bool positions = table.asks_for_positions();
   fmt::print("observer,r,delta,edge,offset,origin,phi,one_plus_z,slope,amplification{}\n",
@@ -124,7 +131,8 @@ void add_trace(CLI::App& app) {
   auto method = std::make_shared<std::string>("table");
   auto options = std::make_shared<TraceOptions>();
   verb->add_option("--table", *table,
-                   "CSV with the columns observer, r, delta and perhaps edge, offset, psi")
+                   "CSV with the columns observer, r, delta and perhaps edge, offset, psi; near a "
+                   "charge spin, charge, r, theta, delta, eta and perhaps edge, offset")
       ->type_name(kFileType)
       ->required();
   verb->add_option("--method", *method,

@@ -1,0 +1,16 @@
+// The rays near a charge that `domefall trace --table` is given, and what it answers.
+#pragma once
+
+#include <string>
+
+#include "pipeline/base/csv_file.h"
+
+namespace domefall {
+
+// Says whether a table is of such rays, by its columns.
+bool is_charged_ray_table(const CsvFile& rows);
+
+// Prints the answer, with as many rows.  Throws InputError, with the line, for cells that are no ray.
+void trace_charged_rays(const std::string& file);
+
+}  // namespace domefall
