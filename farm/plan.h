@@ -37,12 +37,12 @@ struct FarmPlan {
   int at_once = 0;      // tasks that may run at the same time; 0: as many as the engine likes
   int retries = 3;      // how often a task is tried again
   int most_rounds = 2;  // how often what is missing or bad may be submitted again
-  std::string movie;    // a preset, once all frames are good; empty: no movie
-  std::string movie_file;
-  std::string deliver;  // a folder for `domefall deliver`, likewise
-  std::vector<std::string> movie_options, deliver_options;  // of these two
+  std::string movie{};  // a preset, once all frames are good; empty: no movie
+  std::string movie_file{};
+  std::string deliver{};  // a folder for `domefall deliver`, likewise
+  std::vector<std::string> movie_options{}, deliver_options{};  // of these two
   std::vector<PlannedChunk> chunks;
-  std::vector<FarmRound> rounds;  // empty until the engine has accepted the first one
+  std::vector<FarmRound> rounds{};  // empty until the engine has accepted the first one
 };
 
 // Returns an id that no other submission has.  It is the time in UTC to the microsecond, so that a

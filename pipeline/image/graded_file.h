@@ -42,12 +42,12 @@ struct GradedInfo {
   std::string key{};  // digest of everything that decides this frame and its grade, hexadecimal
   std::string title{};
   int frame = 0;
-  std::string display, view;  // of the OpenColorIO configuration
-  std::string software;
-  std::string projection;
-  std::optional<DisplayColour> colour;  // of the display, where that is known
-  OpaqueColumns opaque{};               // of the projection, where the format has an alpha
-  double pixel_aspect = 1;              // width of a pixel over its height
+  std::string display{}, view{};  // of the OpenColorIO configuration
+  std::string software{};
+  std::string projection{};
+  std::optional<DisplayColour> colour{};  // of the display, where that is known
+  OpaqueColumns opaque{};                 // of the projection, where the format has an alpha
+  double pixel_aspect = 1;                // width of a pixel over its height
 };
 
 // Writes a frame under its final name when it is complete, while its rows are made.  Throws as

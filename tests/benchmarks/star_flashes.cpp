@@ -118,10 +118,10 @@ void report(const std::string& name, const Show& show, bool instants) {
 
 Show random_orbit(std::mt19937& random) {
   std::uniform_real_distribution<double> part(0, 1);
-  Show show{
-      .projection = Domemaster{kSize},
-      .spacetime = Schwarzschild{},
-      .hole_at = {V3d(part(random) - 0.5, part(random) - 0.5, part(random) - 0.5).normalized()}};
+  Show show;
+  show.spacetime = Schwarzschild{};
+  show.projection = Domemaster{kSize};
+  show.hole_at = {V3d(part(random) - 0.5, part(random) - 0.5, part(random) - 0.5).normalized()};
   for (const SkyRegion sky : kExteriorSkies)
     show.sky[sky].stars = StarField{source_file("shows/assets/stars_to_9.stars"), 6.5};
   Segment segment;
