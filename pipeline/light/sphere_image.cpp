@@ -13,52 +13,83 @@ constexpr int kMostPieces = 4096;
 // The light of a disc is the sum over so many chords at least.
 constexpr int kChords = 16;
 
+// A Sphere is described in planes of the axis, each by its unit vector e across.
+//
+// Near the axis the light of plane e that is received at one instant was emitted the later the
+// farther along e, so that a body which moves across is seen at another place in each plane.  With
+// its place p0 at the time at which the light of the axis left, and with the frequency nu(e) that it
+// emits, which is nu(0) + swing.e, that place is
+//
+//     p = p0 - swing (e.p0)/nu(e),
+//
+// since |swing| is nu(0) times how much farther the body gets for each step along it.  Both orders
+// that meet in a ring have the same p0, and each has the half of the planes on its side of it.
 class Sphere {
  public:
   Sphere(const BodyImage& image, double radius)
       : image_(image),
         radius_(radius),
         axis_(pi * std::round(image.psi / pi)),
-        from_axis_(std::abs(image.r * std::sin(image.psi))),
         angle_(std::atan2(image.direction.dot(image.across), -image.direction.x)),
-        widest_(from_axis_ > radius ? std::asin(radius / from_axis_) : pi / 2) {}
+        on_axis_(1 / image.frequency_ratio - image.swing.dot(image.across)) {
+    const double own = image.r * std::sin(image.psi);
+    const V3d place = (image.across + image.swing / on_axis_) * own;
+    from_axis_ = place.length();
+    across_ = from_axis_ > 0 ? place / std::copysign(from_axis_, own) : image.across;
+    beside_ = V3d(0, -across_.z, across_.y);
+    farther_ = own == 0 ? 1 : from_axis_ / std::abs(own);
+    widest_ = (azimuth(pi / 2) - azimuth(-pi / 2)) / 2;
+  }
 
   double angle() const { return angle_; }
   double widest() const { return widest_; }
   double half_length() const { return image_.angle_per_length * radius_; }
 
-  // Returns the azimuth about the axis, from the plane of the image, that goes with tau from -pi/2
-  // to pi/2.  Where the axis is far, half a chord is about radius cos(tau) long, which is smooth up
-  // to the rim.
+  // Returns the azimuth about the axis that goes with tau from -pi/2 to pi/2.  Where the axis is
+  // far, half a chord is radius cos(tau) long, which is smooth up to the rim.
   double azimuth(double tau) const {
-    return from_axis_ > radius_ ? std::asin(radius_ / from_axis_ * std::sin(tau)) : tau;
+    if (from_axis_ <= radius_) return tau;
+    // This is beside(azimuth) = radius sin(tau), solved.
+    const double part = radius_ / from_axis_ * std::sin(tau),
+                 s = on_axis_ - part * image_.swing.dot(beside_),
+                 c = part * image_.swing.dot(across_);
+    const double sine = (part * on_axis_ - image_.swing.dot(beside_)) / std::hypot(s, c);
+    // Rounding may exceed 1 where the rim touches the axis.
+    return std::asin(std::clamp(sine, -1.0, 1.0)) + std::atan2(c, s);
   }
   // These are the angle from the hole of the middle of a chord, and half of the angle that it
   // covers.
   double middle(double azimuth) const {
-    const double psi = axis_ + std::atan(std::tan(image_.psi - axis_) * std::cos(azimuth));
+    const double along = farther_ * std::cos(azimuth) * on_axis_ / emitted(e(azimuth));
+    const double psi = axis_ + std::atan(std::tan(image_.psi - axis_) * along);
     return angle_ + image_.angle_per_psi * (psi - image_.psi);
   }
   double half(double azimuth) const {
-    const double beside = from_axis_ * std::sin(azimuth);
+    const double beside = from_axis_ * (on_axis_ * std::sin(azimuth) + image_.swing.dot(beside_)) /
+                          emitted(e(azimuth));
     return image_.angle_per_length *
            std::sqrt(std::max(0.0, (radius_ - beside) * (radius_ + beside)));
   }
 
   SkyImage piece(double azimuth, double angle, double solid_angle) const {
-    const V3d& a = image_.across;
-    const V3d e = a * std::cos(azimuth) + V3d(0, -a.z, a.y) * std::sin(azimuth);
-    const double emitted = 1 / image_.frequency_ratio + image_.swing.dot(e - a);
-    return {{e * std::sin(angle) - V3d(std::cos(angle), 0, 0)}, 1 / emitted, solid_angle};
+    const V3d across = e(azimuth);
+    return {
+        {across * std::sin(angle) - V3d(std::cos(angle), 0, 0)}, 1 / emitted(across), solid_angle};
   }
 
  private:
+  V3d e(double azimuth) const { return across_ * std::cos(azimuth) + beside_ * std::sin(azimuth); }
+  double emitted(const V3d& e) const { return on_axis_ + image_.swing.dot(e); }
+
   const BodyImage& image_;
   double radius_;
-  double axis_;       // psi of the axis that is next to the image
-  double from_axis_;  // M
-  double angle_;      // of the image from the hole
-  double widest_;     // azimuth that the image reaches
+  double axis_;          // psi of the axis that is next to the image
+  double angle_;         // of the image from the hole
+  double on_axis_;       // nu(0)
+  double from_axis_;     // |p0|, M
+  double farther_;       // |p0| over the distance from the axis at which the image is seen
+  V3d across_, beside_;  // azimuths 0 and pi/2: the plane of p0, on the side of the image
+  double widest_;        // half of the azimuths that the image covers
 };
 
 // Returns the integral of |sin x| up to x, between -pi and 2 pi.

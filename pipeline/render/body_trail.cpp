@@ -31,10 +31,25 @@ BodyTrails::Moment::Moment(const FrameScene& scene, double frames, CameraMotion 
       sight((state.observer = scene.body_times.at(frames, camera), state), scene.effects,
             scene.least_star_radius) {}
 
-double BodyTrails::Window::weight_up_to(double frames) const {
-  const double left = 1 - std::min(1.0, std::abs(frames) / half);
-  const double beyond = std::pow(left, sharpness + 1) / 2;
-  return frames < 0 ? beyond : 1 - beyond;
+double BodyTrails::Window::weight(double from, double to) const {
+  const auto up_to = [this](double frames) {
+    const double left = 1 - std::min(1.0, std::abs(frames) / half);
+    const double beyond = std::pow(left, sharpness + 1) / 2;
+    return frames < 0 ? beyond : 1 - beyond;
+  };
+  return up_to(to) - up_to(from);
+}
+
+// A shutter that is open for a shorter time lets all of its light in meanwhile.  For a passage, the
+// time beyond the segment has the light of its mirror image about the passage, so that one near a
+// segment's end gives a frame as much light as elsewhere.
+double BodyTrails::Window::share_of(double from, double to) const {
+  if (camera == CameraMotion::kMoves) return weight(from, to) / weight(begin, end);
+  const double low = 2 * nearest - to, high = 2 * nearest - from;
+  double share = weight(from, to);
+  if (low < begin) share += weight(low, std::min(high, begin));
+  if (high > end) share += weight(std::max(low, end), high);
+  return share;
 }
 
 BodyTrails::BodyTrails(const FrameScene& scene)
@@ -70,7 +85,9 @@ std::optional<BodyTrails::Passage> BodyTrails::passage_of(const Body& body, int 
              after = node_within(body, order, kStep / 2, CameraMotion::kStays);
   const double passed = after.frames - before.frames;
   if (!before.image || !now.image || !after.image || !(passed > 0)) return std::nullopt;
-  return Passage{now.off_axis.length(), (after.off_axis - before.off_axis).length() / passed};
+  const V3d moved = (after.off_axis - before.off_axis) / passed;
+  return Passage{now.off_axis.length(), moved.length(),
+                 -now.off_axis.dot(moved) / std::max(moved.length2(), 1e-300)};
 }
 
 // The window is that of a star whose path from frame to frame and distance from the axis are the
@@ -94,8 +111,12 @@ std::optional<BodyTrails::Window> BodyTrails::passage_window_of(const Body& body
   const BodyTimes& times = scene_.body_times;
   // The peak of the weight must not be higher than that of the open shutter.
   if (!(window * way > radius && window > (sharpness + 1) / 2 * times.open)) return std::nullopt;
-  return Window{std::max(-window, times.begin), std::min(window, times.end), window, sharpness,
-                CameraMotion::kStays};
+  return Window{std::max(-window, times.begin),
+                std::min(window, times.end),
+                window,
+                sharpness,
+                CameraMotion::kStays,
+                std::midpoint(own->nearest, other.value_or(*own).nearest)};
 }
 
 // The window of an open shutter is all of its time, if the image moves meanwhile.
@@ -141,9 +162,7 @@ void BodyTrails::divide(Trail& trail, const Node& a, const Node& b, int depth) {
     return;
   }
   if (!middle.image) return;
-  const Window& window = trail.window;
-  const double whole = window.weight_up_to(window.end) - window.weight_up_to(window.begin);
-  add_piece(trail, middle, (window.weight_up_to(b.frames) - window.weight_up_to(a.frames)) / whole);
+  add_piece(trail, middle, trail.window.share_of(a.frames, b.frames));
 }
 
 // A node whose camera stays where it is has its place in the tetrad in common with the instant's.
@@ -170,12 +189,20 @@ std::vector<BodyTrails::Piece> BodyTrails::trail(const Body& body, int order,
     return node(body, order, window->begin + (window->end - window->begin) * k / kParts,
                 window->camera);
   };
-  Node before = at(0);
+  const Node first = at(0);
+  Node last = first;
   for (int k = 1; k <= kParts; ++k) {
     Node next = at(k);
-    divide(trail, before, next, kMostHalvings);
-    before = std::move(next);
+    divide(trail, last, next, kMostHalvings);
+    last = std::move(next);
   }
+  // What is left lies beyond the segment, and so does its mirror image.  It has the light of the end
+  // that is farther from a passage, so that a body which has none is no darker.
+  const bool begins_fainter = first.image && (!last.image || first.flux < last.flux);
+  const Node& beyond = begins_fainter ? first : last;
+  const double left = 1 - window->share_of(window->begin, window->end);
+  constexpr double kNothing = 1e-9;  // what rounding leaves
+  if (left > kNothing && beyond.image) add_piece(trail, beyond, left);
   return std::move(trail.pieces);
 }
 

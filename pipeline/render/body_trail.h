@@ -45,11 +45,13 @@ class BodyTrails {
     BodySight sight;
   };
   // A Window is the time that a trail is the mean of, in frames from the scene's instant.  The weight
-  // is that of a PassageWindow within [begin, end].
+  // is that of a PassageWindow, which may reach beyond [begin, end].
   struct Window {
     double begin, end, half, sharpness;
     CameraMotion camera;
-    double weight_up_to(double frames) const;  // its integral from -half
+    double nearest = 0;                             // when the body passes the axis
+    double weight(double from, double to) const;    // its integral
+    double share_of(double from, double to) const;  // of all light
   };
   // A Node is an image at one time of a window.
   struct Node {
@@ -60,10 +62,10 @@ class BodyTrails {
     double flux = 0;
     V3d off_axis{0, 0, 0};  // component of the body's direction across the axis of the lens
   };
-  // A Passage is how far the body's direction is from the axis of the lens, as a sine, and by how much
-  // it moves from frame to frame.
+  // A Passage is how far the body's direction is from the axis of the lens, as a sine, by how much it
+  // moves from frame to frame, and after how many frames it is nearest to the axis.
   struct Passage {
-    double sine, way;
+    double sine, way, nearest;
   };
   struct Trail {
     const Body& body;

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "pipeline/render/frame_bodies.h"
@@ -20,8 +22,8 @@ namespace {
 using std::numbers::pi;
 
 // A static observer at 30 M sees a body in a circular orbit at 8 M, whose plane holds the observer
-// or passes so many radians beside.  Frame 50 is 1 s into a segment of 2 s.
-Show show_with(double azimuth, double beside, double m_per_frame, double radius) {
+// or passes so many radians beside.  The show has one segment of 100 frames.
+Show show_with(double azimuth, double beside, double m_per_frame, double radius, int frame = 50) {
   Show show = show_of(StaticObserver{30}, Stereographic{401, 401, 60 * kDegree});
   show.spacetime = Schwarzschild{4e6};
   show.frames_per_second = 50;
@@ -38,9 +40,9 @@ Show show_with(double azimuth, double beside, double m_per_frame, double radius)
   body.normal = {column(axes, 0) * std::sin(beside) - column(axes, 1) * std::cos(beside)};
   body.magnitude = -5;
   body.radius = radius;
-  // It is seen at this azimuth in frame 50.
+  // It is seen at this azimuth in that frame.
   const auto place = image_of_place({30, false, false}, 8, azimuth, 0);
-  const double null_time = frame_state(show, 50).observer.null_time;
+  const double null_time = frame_state(show, frame).observer.null_time;
   body.azimuth = azimuth - std::pow(8, -1.5) * (place->null_time + null_time);
   show.bodies = {body};
   return show;
@@ -101,6 +103,39 @@ TEST(BodyTrails, BehindTheHoleHaveTheLightOfTheirWindow) {
       return std::pow(std::max(0.0, 1 - u), window.sharpness);
     });
     EXPECT_NEAR(light(ring) / mean, 1, 1e-3) << beside << " " << ring.size();
+  }
+}
+
+// Where the window would reach beyond the segment, a passage is as bright as elsewhere, but for what the
+// speed of the body makes of its light, which is not the same before and after.
+TEST(BodyTrails, AreAsBrightAtTheEndsOfASegment) {
+  const auto at = [](int passed, int frame) {
+    const Show show = show_with(pi, 0.01, 0.5, 0.1, passed);
+    const FrameState state = frame_state(show, frame);
+    return light(images(show, state, body_times(show, state, 0)));
+  };
+  using Both = std::pair<int, int>;
+  for (const auto& [passed, frame] :
+       {Both(0, 0), Both(1, 0), Both(2, 0), Both(2, 1), Both(4, 0), Both(99, 99)})
+    EXPECT_NEAR(at(passed, frame) / at(50, 50 + frame - passed), 1, 0.15) << passed << " " << frame;
+}
+
+// A body at 0.41 c shines forward, and the halves of its ring, which are of two orders, meet without
+// a step: a quarter turn from the way of the body, where the ring is faintest but for that.
+TEST(BodyTrails, AreRingsWithoutASeam) {
+  const Show show = show_with(pi, 0, 0.5, 0.1);
+  const FrameState state = frame_state(show, 50);
+  const std::vector<StarImage> ring = images(show, state, body_times(show, state, 0));
+  constexpr std::size_t kSectors = 24;
+  std::array<double, kSectors> light{};
+  for (const StarImage& image : ring) {
+    const double turn = std::atan2(image.y - 200, image.x - 200) / (2 * pi) + 1;
+    light[static_cast<std::size_t>(turn * kSectors) % kSectors] += image.rgb[1];
+  }
+  // The way of the body is along x, so that the seams are at a quarter and at three quarters.
+  for (const std::size_t seam : {kSectors / 4, 3 * kSectors / 4}) {
+    const auto step = [&](std::size_t k) { return std::log(light[k] / light[k - 1]); };
+    EXPECT_NEAR(step(seam), (step(seam - 1) + step(seam + 1)) / 2, 0.1) << seam;
   }
 }
 
