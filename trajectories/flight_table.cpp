@@ -1,9 +1,9 @@
 #include "trajectories/flight_table.h"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
-#include <cstdint>
 #include <stdexcept>
+
+#include "trajectories/zero_between.h"
 
 namespace domefall {
 namespace {
@@ -51,10 +51,15 @@ void FlightTable::append(const std::function<Times(double)>& rates, double low, 
   append(rates, middle, high, depth + 1);
 }
 
+template <class Begin>
+const FlightTable::Panel& FlightTable::panel_at(double value, const Begin& begin) const {
+  return *(std::upper_bound(panels_.begin() + 1, panels_.end(), value,
+                            [&](double v, const Panel& p) { return v < begin(p); }) -
+           1);
+}
+
 FlightTable::Times FlightTable::to_go(double q) const {
-  const auto after = std::upper_bound(panels_.begin() + 1, panels_.end(), q,
-                                      [](double value, const Panel& p) { return value < p.low; });
-  const Panel& panel = *(after - 1);
+  const Panel& panel = panel_at(q, [](const Panel& p) { return p.low; });
   const double part = ((q - panel.low) - (panel.high - q)) / (panel.high - panel.low);
   return {panel.from.tau + panel_sum(panel.tau, part),
           panel.from.null_time + panel_sum(panel.null_time, part),
@@ -64,21 +69,13 @@ FlightTable::Times FlightTable::to_go(double q) const {
 double FlightTable::parameter(double tau_to_go) const {
   if (!(tau_to_go > 0)) return 0;
   if (!(tau_to_go < whole_.tau)) return 1;
-  const auto after =
-      std::upper_bound(panels_.begin() + 1, panels_.end(), tau_to_go,
-                       [](double value, const Panel& p) { return value < p.from.tau; });
-  const Panel& panel = *(after - 1);
+  const Panel& panel = panel_at(tau_to_go, [](const Panel& p) { return p.from.tau; });
   const auto off = [&](double part) {
     return panel_sum(panel.tau, part) - (tau_to_go - panel.from.tau);
   };
-  const double at_low = off(-1), at_high = off(1);
   // Rounding of the sums may put a time next to a panel's end beyond it.
-  if (!(at_low < 0)) return panel.low;
-  if (!(at_high > 0)) return panel.high;
-  std::uintmax_t steps = 100;
-  const auto found = boost::math::tools::toms748_solve(
-      off, -1.0, 1.0, at_low, at_high, boost::math::tools::eps_tolerance<double>(52), steps);
-  const double part = (found.first + found.second) / 2, half = (panel.high - panel.low) / 2;
+  const double part = off(-1) < 0 ? zero_between(off, -1, 1) : -1,
+               half = (panel.high - panel.low) / 2;
   return part < 0 ? panel.low + half * (1 + part) : panel.high - half * (1 - part);
 }
 

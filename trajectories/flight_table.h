@@ -37,6 +37,9 @@ class FlightTable {
   };
 
   void append(const std::function<Times(double)>& rates, double low, double high, int depth);
+  // Returns the last panel for which begin(panel) is not beyond a value.
+  template <class Begin>
+  const Panel& panel_at(double value, const Begin& begin) const;
 
   std::vector<Panel> panels_;
   Times whole_;

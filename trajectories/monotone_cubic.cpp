@@ -1,8 +1,9 @@
 #include "trajectories/monotone_cubic.h"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
-#include <cstdint>
+#include <cmath>
+
+#include "trajectories/zero_between.h"
 
 namespace domefall {
 namespace {
@@ -49,13 +50,7 @@ std::vector<double> turns_of(const HermiteCubic& c) {
 }
 
 double where(const HermiteCubic& c, double value, double low, double high) {
-  const auto f = [&](double t) { return c.at(t) - value; };
-  if (f(low) == 0) return low;
-  if (f(high) == 0) return high;
-  std::uintmax_t steps = 100;
-  const auto found = boost::math::tools::toms748_solve(
-      f, low, high, boost::math::tools::eps_tolerance<double>(52), steps);
-  return (found.first + found.second) / 2;
+  return zero_between([&](double t) { return c.at(t) - value; }, low, high);
 }
 
 }  // namespace domefall

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include "pipeline/spacetime/schwarzschild.h"
@@ -13,23 +11,12 @@
 #include "trajectories/geodesic.h"
 #include "trajectories/orbit_bounds.h"
 #include "trajectories/square.h"
+#include "trajectories/zero_between.h"
 
 namespace domefall {
 namespace {
 
 constexpr double kLastStable = Schwarzschild::last_stable_orbit();
-
-// Returns the zero of a monotone function between low and high, or high if rounding has moved the
-// zero beyond it.
-template <class Function>
-double zero_between(const Function& f, double low, double high) {
-  const double at_low = f(low), at_high = f(high);
-  if ((at_low > 0) == (at_high > 0)) return high;
-  std::uintmax_t steps = 200;
-  const auto found = boost::math::tools::toms748_solve(
-      f, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(52), steps);
-  return (found.first + found.second) / 2;
-}
 
 // A Departure says how an observer leaves the orbits at r = from_r.  With w = 1/r and w_c of the
 // circle from which the fall comes, a fall of that angular momentum L has
