@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# HDR from the show to the movie: PNGs say cICP, and ffprobe reads the tags and the light levels back, which are
-# held against those of the PNGs by the formula of ST 2084.
+# HDR from the show to the movie: PNGs say cICP, and ffprobe reads the tags, the screen and the light levels back,
+# which are held against those of the PNGs by the formula of ST 2084.
 source "$(dirname "$0")/common.bash"
 
 # The example of docs/movies.md.
@@ -49,14 +49,31 @@ print('MaxCLL', most, 'MaxFALL', mean)
 END
 "${DOMEFALL_PYTHON:-python3}" measure.py
 
-# Frames that are not there yet cannot be measured, and HLG has no light levels.
-exits 0 "$DOMEFALL" movie hdr.yaml --size 64 --frames 0 --preset dome --out rendered.mp4
-says 'will not say its light levels'
+# The screen that the grade is made for (ST 2086): the primaries of BT.2020, and white at 1000 cd/m^2.
+for line in red_x=35400 red_y=14600 green_x=8500 green_y=39850 blue_x=6550 blue_y=2300 white_point_x=15635 \
+  white_point_y=16450; do
+  grep -q "^$line/50000$" tags || fail "no $line: $(cat tags)"
+done
+grep -q '^max_luminance=10000000/10000$' tags || fail "$(cat tags)"
+
+# Frames that are rendered for a movie have the same levels, which the movie gets at its end.
+levels=$(grep '^max_[ac]' tags)
+exits 0 "$DOMEFALL" movie hdr.yaml --size 128 --frames 0-2 --preset dome --out rendered.mp4
+says 'light levels: MaxCLL'
+probe rendered.mp4 >tags
+[ "$(grep '^max_[ac]' tags)" = "$levels" ] || fail "not $levels: $(cat tags)"
+! grep -q 65534 rendered.mp4 || fail "it still has the levels that it was begun with"
+
+# Those of another screen, and HLG, which has neither levels nor a screen.
+sed 's/Rec.2100 PQ 1000/Rec.2100 PQ 500/' hdr.yaml >half.yaml
+exits 0 "$DOMEFALL" movie half.yaml --size 64 --frames 0 --preset dome --out half.mp4
+probe half.mp4 >tags
+grep -q '^max_luminance=5000000/10000$' tags || fail "$(cat tags)"
 sed 's/Rec.2100 PQ 1000 nits/Rec.2100 HLG 1000 nits/' hdr.yaml >hlg.yaml
 exits 0 "$DOMEFALL" movie hlg.yaml --size 64 --frames 0 --preset dome --out hlg.mp4
 probe hlg.mp4 >tags
 grep -q '^color_transfer=arib-std-b67$' tags || fail "$(cat tags)"
-! grep -q max_content tags || fail "$(cat tags)"
+! grep -q 'max_content\|max_luminance' tags || fail "$(cat tags)"
 # A newer configuration is refused with its place before work begins.
 sed 's/^ocio_profile_version: 2.1/ocio_profile_version: 2.99/' "$DOMEFALL_SOURCE/shows/assets/dome.ocio" >newer.ocio
 printf 'grade: {config: newer.ocio}\ntimeline: [{duration_s: 1}]\n' >newer.yaml

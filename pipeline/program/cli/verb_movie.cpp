@@ -108,6 +108,7 @@ void movie(const MovieOptions& o) {
   MoviePlan plan = plan_movie(preset, show, frames, show_sound(show, o.audio), out.path());
   const Grader grader(show.grade);
   plan.tags = tags_of(grader.colour());
+  plan.mastering = mastering_display(grader);
   if (preset.burn_in) plan.subtitles = burn_in(show, frames, movie_size(preset, plan.frames));
   say_tags(preset, plan.tags, grader);
   const int threads = all_threads(o.threads);

@@ -1,7 +1,9 @@
 #include "pipeline/theatre/movie/light_levels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "pipeline/image/encode/display_colour.h"
@@ -22,19 +24,41 @@ const std::vector<double>& light_of_codes() {
 
 }  // namespace
 
-void take_levels(const GradedFrame& frame, LightLevels& levels) {
+FrameLevels::FrameLevels(int width, int height)
+    : width_(static_cast<std::size_t>(width)), rows_(static_cast<std::size_t>(height)) {}
+
+void FrameLevels::take(int first, int end, const unsigned short* rgb) {
   const std::vector<double>& lights = light_of_codes();
+  for (int row = first; row < end; ++row) {
+    Row& taken = rows_[static_cast<std::size_t>(row)];
+    for (std::size_t k = 0; k < width_; ++k, rgb += 3) {
+      const unsigned short most = std::max({rgb[0], rgb[1], rgb[2]});
+      taken.brightest = std::max(taken.brightest, most);
+      taken.sum += lights[most];
+    }
+  }
+}
+
+// The rows are added in their order, so that the mean does not depend on threads.
+void FrameLevels::add_to(LightLevels& levels) const {
   double sum = 0;
   unsigned short brightest = 0;
-  for (std::size_t k = 0; k + 2 < frame.pixels.size(); k += 3) {
-    const unsigned short most =
-        std::max({frame.pixels[k], frame.pixels[k + 1], frame.pixels[k + 2]});
-    brightest = std::max(brightest, most);
-    sum += lights[most];
+  for (const Row& row : rows_) {
+    sum += row.sum;
+    brightest = std::max(brightest, row.brightest);
   }
-  const std::size_t pixels = frame.pixels.size() / 3;
-  levels.content = std::max(levels.content, lights[brightest]);
-  levels.frame_average = std::max(levels.frame_average, sum / static_cast<double>(pixels));
+  levels.content = std::max(levels.content, light_of_codes()[brightest]);
+  levels.frame_average = std::max(
+      levels.frame_average, sum / static_cast<double>(width_) / static_cast<double>(rows_.size()));
+}
+
+std::optional<MasteringDisplay> mastering_display(const Grader& grader) {
+  const std::optional<DisplayColour>& colour = grader.colour();
+  if (!colour || colour->curve != DisplayColour::Curve::kPq) return std::nullopt;
+  HalfFrame white(1, 1);
+  std::ranges::fill(white.pixels, std::numeric_limits<Imath::half>::max());
+  const std::vector<unsigned short> codes = grader.grade(white).pixels;
+  return MasteringDisplay{colour->xy, std::round(light_of_codes()[std::ranges::max(codes)])};
 }
 
 }  // namespace domefall

@@ -9,11 +9,13 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/new_file.h"
 #include "pipeline/base/side_by_side.h"
+#include "pipeline/base/talk.h"
 
 namespace domefall {
 namespace {
@@ -63,6 +65,7 @@ Arguments ffmpeg_arguments(const MoviePlan& plan, const TextFile& subtitles,
   Arguments video = video_options(plan.preset, plan.frames, plan.rate, plan.tags,
                                   subtitles ? subtitles->path() : std::string());
   if (plan.levels) add_light_levels(video, *plan.levels);
+  if (plan.mastering) add_mastering_display(video, *plan.mastering);
   append_to(all, video);
   if (!plan.sound.files.empty()) append_to(all, plan.preset.sound);
   append_to(all, output);
@@ -144,6 +147,28 @@ ChildOutcome try_small(const MoviePlan& plan) {
   return outcome;
 }
 
+// Replaces each occurrence of a text in a file by another of the same length, and says whether
+// there was one.  Throws as throw_file_error.
+bool replace_in(int descriptor, const std::string& from, const std::string& to) {
+  constexpr std::size_t kPiece = std::size_t{4} << 20;
+  std::string piece(kPiece, '\0');
+  bool found = false;
+  for (off_t at = 0;;) {
+    const ssize_t got = pread(descriptor, piece.data(), piece.size(), at);
+    if (got < 0) throw_file_error(path_of_descriptor(descriptor), errno);
+    const std::string_view read(piece.data(), static_cast<std::size_t>(got));
+    for (std::size_t k = 0; (k = read.find(from, k)) != std::string_view::npos; k += from.size()) {
+      found = true;
+      if (pwrite(descriptor, to.data(), to.size(), at + static_cast<off_t>(k)) !=
+          static_cast<ssize_t>(to.size()))
+        throw_file_error(path_of_descriptor(descriptor), errno);
+    }
+    if (read.size() < from.size()) return found;
+    // The last bytes may be the beginning of another one.
+    at += static_cast<off_t>(read.size() - (from.size() - 1));
+  }
+}
+
 }  // namespace
 
 void try_movie(const MoviePlan& plan) {
@@ -205,10 +230,11 @@ void MovieFile::add(const RowPicture& frame) {
   ++added_;
 }
 
-void MovieFile::finish() {
+void MovieFile::finish(const std::optional<LightLevels>& levels) {
   const ChildOutcome outcome = ffmpeg_->wait();
   // After a write that failed for a full disk ffmpeg may end with 0.
   if (!outcome.good() || names_lack(outcome)) fail(outcome);
+  if (levels) put_levels(*levels);
   if (flat_) {
     const ChildOutcome wrapped = wrap_around(rate_, flat_->descriptor(), file_.descriptor());
     const std::string what = fmt::format("{}: mkvmerge, which says that it is a sphere, {}",
@@ -219,6 +245,13 @@ void MovieFile::finish() {
   count_frames(outcome);
   if (fsync(file_.descriptor()) != 0) throw_file_error(path_, errno);
   file_.put_in_place();
+}
+
+void MovieFile::put_levels(const LightLevels& levels) const {
+  const auto to_come = in_hevc(kLevelsToCome), known = in_hevc(levels);
+  replace_in(by_ffmpeg(), to_come[1], known[1]);
+  if (!replace_in(by_ffmpeg(), to_come[0], known[0]))
+    throw std::runtime_error(path_.string() + ": the encoder left no place for the light levels");
 }
 
 // Matroska says nothing of its number of frames, so that those of a sphere are counted.

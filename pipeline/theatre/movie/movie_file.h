@@ -23,9 +23,10 @@ struct MoviePlan {
   int first = 0, count = 0;  // of the show's frames
   ColourTags tags;
   Sound sound;
-  std::string subtitles;                // the text of burn_in.h, or empty
-  std::string chapters{};               // as ffmetadata, or empty
-  std::optional<LightLevels> levels{};  // of HDR frames that were there to be measured
+  std::string subtitles;                        // the text of burn_in.h, or empty
+  std::string chapters{};                       // as ffmetadata, or empty
+  std::optional<LightLevels> levels{};          // of HDR frames that were there to be measured
+  std::optional<MasteringDisplay> mastering{};  // of HDR frames
 };
 
 // Makes a movie of one small black frame and the first sound, as the whole would be made, and
@@ -47,14 +48,16 @@ class MovieFile {
   // Both say what it said last.
   void add(const RowPicture& frame);
 
-  // Ends the movie, asks ffprobe how many frames it has, flushes it and gives it its name.  Throws
-  // as above, and as TemporaryFile.
-  void finish();
+  // Ends the movie, asks ffprobe how many frames it has, flushes it and gives it its name.  A movie
+  // that was begun with kLevelsToCome gets its light levels first.  Throws as above, and as
+  // TemporaryFile.
+  void finish(const std::optional<LightLevels>& levels = {});
 
  private:
   // Returns the descriptor of the file that ffmpeg writes.
   int by_ffmpeg() const { return flat_ ? flat_->descriptor() : file_.descriptor(); }
   [[noreturn]] void fail(const ChildOutcome& outcome) const;
+  void put_levels(const LightLevels& levels) const;
   void count_frames(const ChildOutcome& made) const;
 
   std::filesystem::path path_;

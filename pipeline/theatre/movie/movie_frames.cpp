@@ -7,6 +7,7 @@
 #include <deque>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "pipeline/base/disk_room.h"
@@ -91,13 +92,31 @@ void for_each_frame(const MovieRun& run, const GradedFrames& finished, const Ste
   }
 }
 
+void say_levels(const LightLevels& levels) {
+  say(fmt::format("light levels: MaxCLL {:.1f}, MaxFALL {:.1f} cd/m^2", levels.content,
+                  levels.frame_average));
+}
+
 // The encoder wants them before the first frame, so that all frames are read once more for them.
 LightLevels measured_levels(const MovieRun& run, const GradedFrames& finished) {
   LightLevels levels;
-  for_each_frame(run, finished, [&](const GradedFrame& frame) { take_levels(frame, levels); });
-  say(fmt::format("light levels: MaxCLL {:.1f}, MaxFALL {:.1f} cd/m^2", levels.content,
-                  levels.frame_average));
+  for_each_frame(run, finished, [&](const GradedFrame& frame) {
+    FrameLevels of_frame(frame.width, frame.height);
+    of_frame.take(0, frame.height, frame.pixels.data());
+    of_frame.add_to(levels);
+  });
+  say_levels(levels);
   return levels;
+}
+
+// Adds a frame to a movie, and takes its levels while its rows are made.
+void add_measured(const RowPicture& frame, MovieFile& movie, LightLevels& levels) {
+  FrameLevels of_frame(frame.width, frame.height);
+  movie.add({frame.width, frame.height, [&](int first, int end, unsigned short* rgb) {
+               frame.rows(first, end, rgb);
+               of_frame.take(first, end, rgb);
+             }});
+  of_frame.add_to(levels);
 }
 
 }  // namespace
@@ -158,12 +177,14 @@ void movie_of_finished(const MovieRun& run, const std::filesystem::path& folder)
 }
 
 void movie_of_rendered(const MovieRun& run) {
-  if (takes_light_levels(run.plan.preset, run.plan.tags))
-    say("the movie will not say its light levels (MaxCLL, MaxFALL), which are measured from "
-        "finished frames; --from takes such");
   KeyedRenderer renderer(run.show, run.frames, run.grader.transform_id(), run.threads);
   FrameGrading grading(run.grader, run.threads);
-  MovieFile movie(run.out, run.plan);
+  // The encoder wants the levels before the first frame, and they are known after the last one.
+  const bool measures = takes_light_levels(run.plan.preset, run.plan.tags);
+  MoviePlan plan = run.plan;
+  if (measures) plan.levels = kLevelsToCome;
+  LightLevels levels;
+  MovieFile movie(run.out, plan);
   Progress progress(run.frames.size());
   auto rendered = std::make_unique<LayeredHalfFrame>(),
        taken = std::make_unique<LayeredHalfFrame>();
@@ -178,12 +199,15 @@ void movie_of_rendered(const MovieRun& run) {
     renderer.render(state, *rendered);
     finish();
     std::swap(rendered, taken);
-    taking = std::async(std::launch::async, [&movie, &grading, state, frame = taken.get()] {
-      grading.grade(frame->picture, state, [&movie](const RowPicture& rows) { movie.add(rows); });
+    taking = std::async(std::launch::async, [&, state, frame = taken.get()] {
+      grading.grade(frame->picture, state, [&](const RowPicture& rows) {
+        measures ? add_measured(rows, movie, levels) : movie.add(rows);
+      });
     });
   }
   finish();
-  movie.finish();
+  if (measures) say_levels(levels);
+  movie.finish(measures ? std::optional(levels) : std::nullopt);
   say_done(run, progress);
 }
 

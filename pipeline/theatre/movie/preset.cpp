@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/ratio.h"
@@ -227,6 +229,15 @@ std::vector<std::string> video_options(const MoviePreset& preset, const MovieSiz
   return options;
 }
 
+namespace {
+
+void add_to_x265(std::vector<std::string>& options, const std::string& text) {
+  const auto name = std::ranges::find(options, "-x265-params");
+  if (name != options.end()) *(name + 1) += text;
+}
+
+}  // namespace
+
 bool takes_light_levels(const MoviePreset& preset, const ColourTags& tags) {
   return tags.transfer == kH273Pq &&
          std::ranges::find(preset.video, "-x265-params") != preset.video.end();
@@ -234,10 +245,39 @@ bool takes_light_levels(const MoviePreset& preset, const ColourTags& tags) {
 
 // Both are rounded up, so that no pixel and no frame is brighter than the movie says.
 void add_light_levels(std::vector<std::string>& options, const LightLevels& levels) {
-  const auto name = std::ranges::find(options, "-x265-params");
-  if (name == options.end()) return;
-  *(name + 1) += fmt::format(":max-cll={:.0f},{:.0f}", std::ceil(levels.content),
-                             std::ceil(levels.frame_average));
+  add_to_x265(options, fmt::format(":max-cll={:.0f},{:.0f}", std::ceil(levels.content),
+                                   std::ceil(levels.frame_average)));
+}
+
+// The first is a message of supplemental enhancement information (ITU-T H.265, D.2.35) in a unit of its
+// own: the unit's head, the message's kind and size, the levels, and the unit's end.  No two bytes in
+// succession may be 0, or a third would have to stand behind them.  So levels of 0 count as 1, and in
+// one of 65,000 cases MaxCLL is 1 more.
+std::array<std::string, 2> in_hevc(const LightLevels& levels) {
+  const auto whole = [](double level) {
+    return static_cast<unsigned>(std::clamp(std::ceil(level), 1.0, 65535.0));
+  };
+  constexpr unsigned kByte = 256;
+  unsigned content = whole(levels.content);
+  const unsigned average = whole(levels.frame_average);
+  if (content % kByte == 0 && average < kByte) ++content;
+  std::string unit = "\x4e\x01\x90\x04";
+  for (const unsigned byte : {content / kByte, content % kByte, average / kByte, average % kByte})
+    unit += static_cast<char>(byte);
+  return {unit + '\x80', fmt::format("cll={:05},{:05}", content, average)};
+}
+
+// Places count in 1/50000 and light in 1/10000 cd/m^2.
+void add_mastering_display(std::vector<std::string>& options, const MasteringDisplay& display) {
+  constexpr double kPlaces = 50000, kLight = 10000;
+  constexpr std::array<std::pair<const char*, std::size_t>, 4> kPlacesOf{
+      {{"G", 2}, {"B", 4}, {"R", 0}, {"WP", 6}}};
+  std::string text = ":master-display=";
+  for (const auto& [name, first] : kPlacesOf) {
+    text += fmt::format("{}({:.0f},{:.0f})", name, kPlaces * display.xy[first],
+                        kPlaces * display.xy[first + 1]);
+  }
+  add_to_x265(options, text + fmt::format("L({:.0f},1)", kLight * display.peak));
 }
 
 std::vector<std::string> sound_inputs(const Sound& sound) {

@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,8 +67,17 @@ std::vector<std::string> video_options(const MoviePreset& preset, const MovieSiz
 // Says whether a movie of these tags has a place for the light levels of its frames: PQ by x265.
 bool takes_light_levels(const MoviePreset& preset, const ColourTags& tags);
 
+// A movie that begins before its levels are known is given these, which no frame can have.
+inline constexpr LightLevels kLevelsToCome{65534, 65533};
+// Returns how the stream of such a movie says them, for players and among the encoder's settings, and
+// how it says others, in as many bytes.
+std::array<std::string, 2> in_hevc(const LightLevels& levels);
+
 // Gives them to x265, in whole cd/m^2, as part of the options that video_options() returned.
 void add_light_levels(std::vector<std::string>& options, const LightLevels& levels);
+// Likewise the screen that the frames were graded for.  Its black counts as 0.0001 cd/m^2, the least
+// that ST 2086 can say.
+void add_mastering_display(std::vector<std::string>& options, const MasteringDisplay& display);
 
 // Returns ffmpeg's filter that makes one stream, [sound], of a sound's files, which are its inputs
 // from `input` on.  It has the length of the frames first to first + count - 1 of a show.

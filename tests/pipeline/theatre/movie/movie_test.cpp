@@ -188,14 +188,29 @@ TEST(LightLevels, AreThoseOfTheBrightestChannelOfPixelsAndFrames) {
   point.pixels[2] = code(0.751827);
   point.pixels[0] = code(0.508078);
   LightLevels levels;
-  take_levels(even, levels);
+  const auto take = [&levels](const GradedFrame& frame) {
+    FrameLevels of_frame(frame.width, frame.height);
+    of_frame.take(0, frame.height, frame.pixels.data());
+    of_frame.add_to(levels);
+  };
+  take(even);
   EXPECT_NEAR(levels.content, 100, 0.1);
   EXPECT_NEAR(levels.frame_average, 100, 0.1);
-  take_levels(point, levels);
+  take(point);
   EXPECT_NEAR(levels.content, 1000, 1);
   EXPECT_NEAR(levels.frame_average, 500, 0.5);
-  take_levels(even, levels);
+  take(even);
   EXPECT_NEAR(levels.content, 1000, 1);
+}
+
+// The stream of a movie that was begun without its levels gets them in as many bytes, of which no two
+// in succession are 0.
+TEST(LightLevels, HaveAPlaceInTheStream) {
+  using namespace std::string_literals;
+  EXPECT_EQ(in_hevc({1000, 99.5})[0], "\x4e\x01\x90\x04\x03\xe8\x00\x64\x80"s);
+  EXPECT_EQ(in_hevc({255.5, 0})[0], "\x4e\x01\x90\x04\x01\x01\x00\x01\x80"s);
+  EXPECT_EQ(in_hevc(kLevelsToCome)[0], "\x4e\x01\x90\x04\xff\xfe\xff\xfd\x80"s);
+  EXPECT_EQ(in_hevc({1000, 99.5})[1], "cll=01000,00100");
 }
 
 TEST(LightLevels, AreForPqByX265Alone) {
