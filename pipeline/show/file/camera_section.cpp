@@ -86,10 +86,9 @@ std::optional<double> read_ratio(const Item& item, const Range& range) {
   const FrameRate ratio = parse_frame_rate(text);
   if (ratio.seconds > 0 && std::max(ratio.frames, ratio.seconds) <= kMost)
     return in_range(item, per_second(ratio), range);
-  item.fail(fmt::format(
+  return item.fail(fmt::format(
       "must be a number, or a ratio of two whole numbers up to {} such as 16:11, got {}", kMost,
       kind_of(item)));
-  return std::nullopt;
 }
 
 // Returns the names of the projections of which something holds, as they stand in a message.

@@ -31,10 +31,7 @@ std::optional<PatternKind> read_pattern(const Item& item) {
   enum class Type { kTurbulence, kRings, kSpot, kNone };
   const Item* map = item.node.IsMap() ? &item : nullptr;
   const auto type = map ? peek(item, "type") : std::optional(item);
-  if (!type) {
-    item.fail("needs a type: turbulence, rings or spot");
-    return std::nullopt;
-  }
+  if (!type) return item.fail("needs a type: turbulence, rings or spot");
   const auto chosen = read_choice(*type, keys_of("pattern")[0].words());
   if (!chosen) return std::nullopt;
   switch (static_cast<Type>(*chosen)) {

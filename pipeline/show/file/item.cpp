@@ -43,22 +43,15 @@ std::string in_unit(const Range& range) {
 // Returns the characters of a scalar.  Reports an item that is no scalar, and one with a tag or an
 // open quote.
 std::optional<std::string> scalar(const Item& item, const std::string& wanted) {
-  if (!item.node.IsScalar()) {
-    item.fail("must be " + wanted + ", got " + kind_of(item));
-    return std::nullopt;
-  }
+  if (!item.node.IsScalar()) return item.fail("must be " + wanted + ", got " + kind_of(item));
   // A tag such as !!str would say of what kind a value is, which in a show its key decides.
   const std::string& tag = item.node.Tag();
-  if (!tag.empty() && tag != "?" && tag != "!") {
-    item.fail("bears the YAML tag '" + shown(tag) + "'; shows use none");
-    return std::nullopt;
-  }
+  if (!tag.empty() && tag != "?" && tag != "!")
+    return item.fail("bears the YAML tag '" + shown(tag) + "'; shows use none");
   // yaml-cpp lets the end of the file close a quote, so that the comment which parse_yaml() has
   // appended becomes a part of the text.
-  if (is_quoted(item) && item.node.Scalar().find(kEndOfShow) != std::string::npos) {
-    item.fail("opens a quote that is never closed");
-    return std::nullopt;
-  }
+  if (is_quoted(item) && item.node.Scalar().find(kEndOfShow) != std::string::npos)
+    return item.fail("opens a quote that is never closed");
   return item.node.Scalar();
 }
 
@@ -143,8 +136,9 @@ void Problems::raise() const {
   throw InputError(message);
 }
 
-void Item::fail(const std::string& what) const {
+std::nullopt_t Item::fail(const std::string& what) const {
   problems->add(at, (path.empty() ? "the show" : path) + " " + what);
+  return std::nullopt;
 }
 
 void Item::miss_file(const std::string& what) const {
@@ -165,14 +159,9 @@ std::string kind_of(const Item& item) {
 std::optional<std::string> read_text(const Item& item) {
   auto text = scalar(item, "text");
   if (!text) return std::nullopt;
-  if (text->find_first_not_of(' ') == std::string::npos) {
-    item.fail("must not be empty");
-    return std::nullopt;
-  }
-  if (!first_control_character(*text).empty()) {
-    item.fail("must be one line without control characters, got '" + shown(*text) + "'");
-    return std::nullopt;
-  }
+  if (text->find_first_not_of(' ') == std::string::npos) return item.fail("must not be empty");
+  if (!first_control_character(*text).empty())
+    return item.fail("must be one line without control characters, got '" + shown(*text) + "'");
   return text;
 }
 
@@ -181,16 +170,12 @@ std::optional<std::string> read_lines(const Item& item) {
   if (!text) return std::nullopt;
   // A block of YAML ends with a line end that is no line of the text.
   const std::size_t first = text->find_first_not_of(" \n"), last = text->find_last_not_of(" \n");
-  if (first == std::string::npos) {
-    item.fail("must not be empty");
-    return std::nullopt;
-  }
+  if (first == std::string::npos) return item.fail("must not be empty");
   std::string letters = *text;
   std::erase(letters, '\n');
-  if (!first_control_character(letters).empty()) {
-    item.fail("may have no control characters but ends of lines, got '" + shown(*text) + "'");
-    return std::nullopt;
-  }
+  if (!first_control_character(letters).empty())
+    return item.fail("may have no control characters but ends of lines, got '" + shown(*text) +
+                     "'");
   return text->substr(first, last + 1 - first);
 }
 
@@ -212,18 +197,15 @@ std::optional<double> read_number(const Item& item, const Range& range) {
   const bool bounded = too_large && stop == end && broken_bound(range, value);
   if (!bounded && (error == std::errc::result_out_of_range || is_yaml_special(*text) ||
                    (error == std::errc() && stop == end && !std::isfinite(value)))) {
-    item.fail("must be a finite number" + in_unit(range) + " that a double holds, got " +
-              shown(*text));
-    return std::nullopt;
+    return item.fail("must be a finite number" + in_unit(range) + " that a double holds, got " +
+                     shown(*text));
   }
   // A number in quotes is text to YAML, and one with a rest behind its digits is no number.
-  if (is_quoted(item) || (error != std::errc() && !bounded) || stop != end) {
-    item.fail("must be " + wanted + ", got " + kind_of(item) +
-              std::string(stop == begin || !odd_character(*text).empty()
-                              ? ""
-                              : mended({stop, end}, range)));
-    return std::nullopt;
-  }
+  if (is_quoted(item) || (error != std::errc() && !bounded) || stop != end)
+    return item.fail("must be " + wanted + ", got " + kind_of(item) +
+                     std::string(stop == begin || !odd_character(*text).empty()
+                                     ? ""
+                                     : mended({stop, end}, range)));
   return in_range(item, value, range);
 }
 
@@ -232,9 +214,8 @@ std::optional<double> in_range(const Item& item, double value, const Range& rang
   if (!bound) return value;
   // The reason is that of the lower bound, and is left out where the upper one is broken.
   const bool low = value <= range.low && !range.low_reason.empty();
-  item.fail("must " + *bound + in_unit(range) + ", got " + as_written(item) +
-            (low ? ": " + std::string(range.low_reason) : ""));
-  return std::nullopt;
+  return item.fail("must " + *bound + in_unit(range) + ", got " + as_written(item) +
+                   (low ? ": " + std::string(range.low_reason) : ""));
 }
 
 std::optional<int> read_whole_number(const Item& item, const Range& range) {
@@ -242,8 +223,7 @@ std::optional<int> read_whole_number(const Item& item, const Range& range) {
   if (!value) return std::nullopt;
   // The ranges of whole numbers in shows end at 1e9, which an int holds.
   if (*value == std::floor(*value)) return static_cast<int>(*value);
-  item.fail("must be a whole number" + in_unit(range) + ", got " + as_written(item));
-  return std::nullopt;
+  return item.fail("must be a whole number" + in_unit(range) + ", got " + as_written(item));
 }
 
 std::string as_written(const Item& item) { return shown(item.node.Scalar()); }
@@ -257,17 +237,14 @@ std::optional<std::size_t> read_choice(const Item& item, std::span<const std::st
   if (!text) return std::nullopt;
   for (std::size_t k = 0; k < words.size(); ++k)
     if (*text == words[k]) return k;
-  item.fail("must be " + listed(words) + ", got '" + shown(*text) + "'" +
-            did_you_mean(*text, words));
-  return std::nullopt;
+  return item.fail("must be " + listed(words) + ", got '" + shown(*text) + "'" +
+                   did_you_mean(*text, words));
 }
 
 std::optional<std::vector<Item>> read_list(const Item& item) {
-  if (!item.node.IsSequence() || item.node.size() == 0) {
-    item.fail(std::string("must be a list of at least one entry, got ") +
-              (item.node.IsSequence() ? "an empty one" : kind_of(item)));
-    return std::nullopt;
-  }
+  if (!item.node.IsSequence() || item.node.size() == 0)
+    return item.fail(std::string("must be a list of at least one entry, got ") +
+                     (item.node.IsSequence() ? "an empty one" : kind_of(item)));
   std::vector<Item> items;
   for (const auto& child : item.node) {
     const auto mark = child.Mark();
@@ -281,12 +258,10 @@ std::optional<std::vector<Item>> read_list(const Item& item) {
 
 std::optional<std::vector<double>> read_numbers(const Item& item, std::size_t count,
                                                 const Range& range) {
-  if (!item.node.IsSequence() || item.node.size() != count) {
-    item.fail(
+  if (!item.node.IsSequence() || item.node.size() != count)
+    return item.fail(
         fmt::format("must be a list of {} numbers{}, got {}", count, in_unit(range),
                     item.node.IsSequence() ? fmt::to_string(item.node.size()) : kind_of(item)));
-    return std::nullopt;
-  }
   std::vector<double> values;
   const auto children = read_list(item);
   for (const Item& child : *children)

@@ -61,8 +61,8 @@ struct Item {
   std::string path;       // empty for the whole show
   Problems* problems;
 
-  // Reports "PATH what" at the place of the value.
-  void fail(const std::string& what) const;
+  // Reports "PATH what" at the place of the value, and returns nothing, as whoever gives up does.
+  std::nullopt_t fail(const std::string& what) const;
   // Reports in the same form a file that is missing or cannot be read.
   void miss_file(const std::string& what) const;
 };

@@ -177,15 +177,14 @@ bool Lookup::read_places(const Item& item, int table) {
 // Returns the place of a body in the show's year, or reports that it is not known then.
 std::optional<SkyDirection> Lookup::solar_place(const Item& item, SolarBody body) const {
   const std::string name(kSolarBodyNames[static_cast<std::size_t>(body)]);
-  if (!year_) {
-    item.fail("names " + name + ", which needs the show's begins_year, since it moves on the sky");
-    return std::nullopt;
-  }
+  if (!year_)
+    return item.fail("names " + name +
+                     ", which needs the show's begins_year, since it moves on the sky");
   const YearSpan known = years_of(body);
   if (*year_ >= known.first && *year_ <= known.last) return seen_from_earth(body, *year_);
-  item.fail(fmt::format("names {}, whose place is known from {} to {}, but begins_year is {}", name,
-                        known.first, known.last, *year_));
-  return std::nullopt;
+  return item.fail(
+      fmt::format("names {}, whose place is known from {} to {}, but begins_year is {}", name,
+                  known.first, known.last, *year_));
 }
 
 // Returns the place of a name, or nothing if no table has it or a table cannot be read.  Planets
@@ -217,12 +216,11 @@ std::optional<SkyDirection> Lookup::place(const Item& item,
   if (near.empty()) near = nearest_word(*name, kSolarBodyNames);
   if (near.empty() && name->size() < 60) near = places_.nearest(*name);
   const std::string odd = odd_character(*name);
-  item.fail((words.empty() ? "" : "must be " + listed(words) + ", or a place on the sky; it ") +
-            "names '" + shown(*name) +
-            "', which is no star, planet, constellation or object that Domefall knows" +
-            (odd.empty() ? "" : "; it " + odd) +
-            (near.empty() ? "" : "; did you mean " + near + "?"));
-  return std::nullopt;
+  return item.fail(
+      (words.empty() ? "" : "must be " + listed(words) + ", or a place on the sky; it ") +
+      "names '" + shown(*name) +
+      "', which is no star, planet, constellation or object that Domefall knows" +
+      (odd.empty() ? "" : "; it " + odd) + (near.empty() ? "" : "; did you mean " + near + "?"));
 }
 
 std::optional<SkyFigure> Lookup::figure(const Item& item) {
@@ -232,17 +230,15 @@ std::optional<SkyFigure> Lookup::figure(const Item& item) {
   try {
     if (file) figures_ = read_sky_figures(*file);
   } catch (const InputError& error) {
-    item.fail("needs the table of figures: " + std::string(error.what()));
-    return std::nullopt;
+    return item.fail("needs the table of figures: " + std::string(error.what()));
   }
   const auto found = figures_.find(folded_place_name(*name));
   if (found != figures_.end()) return found->second;
   std::vector<std::string_view> names;
   names.reserve(figures_.size());
   for (const auto& [known, figure] : figures_) names.push_back(known);
-  item.fail("names '" + shown(*name) + "', which is no constellation" +
-            did_you_mean(folded_place_name(*name), names));
-  return std::nullopt;
+  return item.fail("names '" + shown(*name) + "', which is no constellation" +
+                   did_you_mean(folded_place_name(*name), names));
 }
 
 std::optional<SkyDirection> read_sky_place(const Item& item, Lookup& lookup,

@@ -44,10 +44,8 @@ std::optional<Geodesic> read_scattering(const Section& s, const Item& by) {
   const auto excess = s.given("excess");
   const auto r = s.given("periastron");
   if (r && excess_item) {
-    if (const Item* v = s.find("v_inf")) {
-      v->fail("excludes excess, which says how far it lies above the slowest possible");
-      return std::nullopt;
-    }
+    if (const Item* v = s.find("v_inf"))
+      return v->fail("excludes excess, which says how far it lies above the slowest possible");
     if (!excess) return std::nullopt;
     return made(s, *excess_item, [&] { return hyperbolic_by_speed_excess(*r, *excess); });
   }
@@ -84,10 +82,8 @@ std::optional<Geodesic> read_ellipse(const Section& s) {
 std::optional<Geodesic> read_captured(const Section& s) {
   const auto from_r = s.required("from_r");
   if (s.find("v_inf")) {
-    if (const Item* momentum = s.find("angular_momentum")) {
-      momentum->fail("goes with a fall from rest; with v_inf give impact_parameter");
-      return std::nullopt;
-    }
+    if (const Item* momentum = s.find("angular_momentum"))
+      return momentum->fail("goes with a fall from rest; with v_inf give impact_parameter");
     const auto v = s.given("v_inf");
     const auto b = s.required("impact_parameter");
     if (!from_r || !v || !b) return std::nullopt;
@@ -189,12 +185,10 @@ std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage,
   const Section s(item, {"trajectory", "thrown", "speed", "against", "end", "rates", "pace"});
   const auto frame = read_frame(s, stage, "from_r");
   if (!frame) return std::nullopt;
-  if (is_outgoing(frame->tetrad)) {
-    s.find("against")->fail(
+  if (is_outgoing(frame->tetrad))
+    return s.find("against")->fail(
         "of a throw must be static, free_fall or constant_t; what comes out of region IV is of "
         "type kruskal");
-    return std::nullopt;
-  }
   const auto own = read_own_celerity(s, stage, *frame, lookup);
   if (!own) return std::nullopt;
   // A throw against the static observer is given as it is.  A throw against another one, whose
@@ -265,9 +259,8 @@ std::optional<TimedTrajectory> read_braked(const Item& item, const Stage& stage,
   if (!from_r || !stop_r || (s.find("speed") && !given)) return std::nullopt;
   if (*stop_r >= *from_r) {
     const Item& item_of_stop = *s.find("stop_r");
-    item_of_stop.fail(fmt::format("must stay below from_r = {} (units of M), got {}",
-                                  short_number(*from_r), as_written(item_of_stop)));
-    return std::nullopt;
+    return item_of_stop.fail(fmt::format("must stay below from_r = {} (units of M), got {}",
+                                         short_number(*from_r), as_written(item_of_stop)));
   }
   // Without a speed it goes on where what falls from rest far away passes from_r.
   const double speed = given.value_or(Schwarzschild::free_fall_speed(*from_r));

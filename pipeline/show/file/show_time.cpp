@@ -52,10 +52,9 @@ std::optional<double> read_marked(const Item& item, const Marker& marker, const 
   if (!early && !late) return seconds;
   const char* bound = early ? (range.low_excluded ? "after" : "at least")
                             : (range.high_excluded ? "before" : "at most");
-  item.fail(fmt::format("names the marker '{}', which lies at {} s, where it must be {} {} s",
-                        shown(marker.name), short_number(marker.at_s), bound,
-                        short_number(start + (early ? range.low : range.high))));
-  return std::nullopt;
+  return item.fail(fmt::format(
+      "names the marker '{}', which lies at {} s, where it must be {} {} s", shown(marker.name),
+      short_number(marker.at_s), bound, short_number(start + (early ? range.low : range.high))));
 }
 
 std::optional<double> read_rate_fraction(const Item& item, const Range& range) {
@@ -65,10 +64,9 @@ std::optional<double> read_rate_fraction(const Item& item, const Range& range) {
   const FrameRate rate = parse_frame_rate(*text);
   if (rate.seconds > 0 && std::max(rate.frames, rate.seconds) <= kMost)
     return in_range(item, per_second(rate), range);
-  item.fail(fmt::format(
+  return item.fail(fmt::format(
       "must be a number, or a fraction of two whole numbers up to {} such as 24000/1001, got {}",
       kMost, kind_of(item)));
-  return std::nullopt;
 }
 
 }  // namespace
@@ -186,9 +184,8 @@ std::optional<double> read_time(const Item& item, const Range& range,
     }
     if (text.find(':') != std::string::npos) {
       const std::string odd = odd_character(text);
-      item.fail("must be seconds, or minutes and seconds such as 1:02.5, got '" + shown(text) +
-                "'" + (odd.empty() ? "" : ", which " + odd));
-      return std::nullopt;
+      return item.fail("must be seconds, or minutes and seconds such as 1:02.5, got '" +
+                       shown(text) + "'" + (odd.empty() ? "" : ", which " + odd));
     }
     // A text that does not begin as a number does can only be the name of a marker.
     const bool word = !text.empty() && text.find_first_of("0123456789+-.") != 0;
@@ -196,9 +193,8 @@ std::optional<double> read_time(const Item& item, const Range& range,
       std::vector<std::string_view> names;
       names.reserve(markers.size());
       for (const Marker& marker : markers) names.push_back(marker.name);
-      item.fail("names a marker that the show does not have: '" + shown(text) + "'" +
-                did_you_mean(text, names));
-      return std::nullopt;
+      return item.fail("names a marker that the show does not have: '" + shown(text) + "'" +
+                       did_you_mean(text, names));
     }
   }
   return read_number(item, range);

@@ -71,9 +71,8 @@ std::optional<SkyBackground> read_background(const Item& item, const Lookup& loo
     if (const auto file = lookup.file(item, *text)) return PanoramaSky{*file};
     return std::nullopt;
   }
-  item.fail("must be " + listed(kWords) + " or an image file, got '" + shown(*text) + "'" +
-            did_you_mean(*text, kWords));
-  return std::nullopt;
+  return item.fail("must be " + listed(kWords) + " or an image file, got '" + shown(*text) + "'" +
+                   did_you_mean(*text, kWords));
 }
 
 // Says whether a background is an image of the show's own, whose values have no unit.  The images
@@ -155,9 +154,9 @@ std::optional<StarField> read_catalogue(const Item& item, const Lookup& lookup) 
   if (*text == kWords[2]) return whole_field(lookup.deepest_stars(item));
   const bool looks_like_file = text->find_first_of("./") != std::string::npos;
   if (looks_like_file || lookup.find(*text)) return whole_field(lookup.file(item, *text));
-  item.fail("must be standard, naked_eye, deepest, none or a star catalogue (.stars, .csv), got '" +
-            shown(*text) + "'" + did_you_mean(*text, kWords));
-  return std::nullopt;
+  return item.fail(
+      "must be standard, naked_eye, deepest, none or a star catalogue (.stars, .csv), got '" +
+      shown(*text) + "'" + did_you_mean(*text, kWords));
 }
 
 void read_catalogue(const Item& item, const Lookup& lookup, RegionSky& sky) {

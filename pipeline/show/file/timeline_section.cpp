@@ -103,8 +103,7 @@ class TimelineReader {
   std::optional<double> read_seconds_until(const Marker& event, const Course& course,
                                            const Item& duration) {
     const auto refuse = [&](const std::string& why) {
-      duration.fail("names the event '" + shown(event.name) + "', " + why);
-      return std::nullopt;
+      return duration.fail("names the event '" + shown(event.name) + "', " + why);
     };
     const Item* trajectory = course.section.find("trajectory");
     const auto has = [&](const char* key) { return trajectory && peek(*trajectory, key); };

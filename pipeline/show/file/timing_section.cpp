@@ -13,10 +13,8 @@ std::string leg_name(Leg leg) { return leg == Leg::kInward ? "inward" : "outward
 std::optional<Leg> read_leg(const Section& s, std::string_view key, std::string_view radius) {
   const Item* item = s.find(key);
   if (!item) return std::nullopt;
-  if (!s.find(radius)) {
-    item->fail("says on which leg " + std::string(radius) + " lies; give that too");
-    return std::nullopt;
-  }
+  if (!s.find(radius))
+    return item->fail("says on which leg " + std::string(radius) + " lies; give that too");
   return s.given_word(key, {Leg::kInward, Leg::kOutward});
 }
 
@@ -48,16 +46,11 @@ std::optional<ProperTime> read_begin_time(const Section& s, const Trajectory& tr
   if (!tau) return std::nullopt;
   const Item& item = *s.find("from_tau_m");
   // Both ends are excluded, since a trajectory has no point at the singularity.
-  if (!(*tau > birth(trajectory) && *tau < lifetime(trajectory))) {
-    item.fail(fmt::format(
+  if (!(*tau > birth(trajectory) && *tau < lifetime(trajectory)))
+    return item.fail(fmt::format(
         "must lie within the trajectory, that is between {} and {} (units of M), got {}",
         short_number(birth(trajectory)), short_number(lifetime(trajectory)), as_written(item)));
-    return std::nullopt;
-  }
-  if (const auto what = leaves_shows(trajectory, *tau)) {
-    item.fail(*what);
-    return std::nullopt;
-  }
+  if (const auto what = leaves_shows(trajectory, *tau)) return item.fail(*what);
   return *tau;
 }
 
@@ -124,11 +117,10 @@ std::optional<ProperTime> read_end_time(const Section& s, const Trajectory& traj
   if (*tau >= begin && *tau < lifetime(trajectory)) return tau;
   const Item& item = *s.find("to_tau_m");
   const double end = lifetime(trajectory);
-  item.fail(fmt::format("must be at least {}, where the segment begins{} (units of M), got {}",
-                        short_number(double(begin)),
-                        std::isinf(end) ? "," : ", and below " + short_number(end),
-                        as_written(item)));
-  return std::nullopt;
+  return item.fail(
+      fmt::format("must be at least {}, where the segment begins{} (units of M), got {}",
+                  short_number(double(begin)),
+                  std::isinf(end) ? "," : ", and below " + short_number(end), as_written(item)));
 }
 
 // Reads the rate of a segment that has no other end.  The segment must not outlast the trajectory.

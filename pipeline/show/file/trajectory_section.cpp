@@ -78,26 +78,21 @@ std::optional<TimedTrajectory> read_radial_infall(const Item& item, const Stage&
   const bool mirrored = is_in_region_three(s);
   if (given && !to) {
     const Item* pace = s.find("pace");
-    if (pace && is_word(*pace, "slowing")) {
-      pace->fail("of 'slowing' needs to_r, not a rate");
-      return std::nullopt;
-    }
+    if (pace && is_word(*pace, "slowing")) return pace->fail("of 'slowing' needs to_r, not a rate");
     if (!in_range(*s.find("from_r"), *from_r, kUnitsOfM.at_least(kNearest))) return std::nullopt;
     const auto rate = read_fall_time(s, stage, fall);
     return rate ? paced(s, fall, timing_of(*rate), mirrored) : std::nullopt;
   }
   // The end that does not lie below the beginning may be the default, and then from_r is blamed.
   const double end = s.number("to_r");
-  if (end >= *from_r) {
-    (to ? to : s.find("from_r"))
+  if (end >= *from_r)
+    return (to ? to : s.find("from_r"))
         ->fail(to ? fmt::format("must stay below from_r = {} (units of M), got {}: a free fall "
                                 "only goes inward",
                                 short_number(*from_r), as_written(*to))
                   : fmt::format("must exceed {} (units of M), the default of to_r, got {}: a free "
                                 "fall only goes inward",
                                 short_number(end), as_written(*s.find("from_r"))));
-    return std::nullopt;
-  }
   Timing timing{0, proper_time_to(fall, end)};
   if (!read_end_rates(s, stage, timing)) return std::nullopt;
   return paced(s, fall, timing, mirrored);
@@ -122,10 +117,9 @@ std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stag
 
 std::optional<TimedTrajectory> read_continue(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "end", "rates", "pace"});
-  if (!stage.before) {
-    item.fail("goes on with the trajectory of the segment before, but this is the first segment");
-    return std::nullopt;
-  }
+  if (!stage.before)
+    return item.fail(
+        "goes on with the trajectory of the segment before, but this is the first segment");
   const auto timing = read_end(s, stage, stage.before->trajectory, stage.before->timing.tau_end);
   if (!timing) return std::nullopt;
   Placement placement = stage.before->placement;
@@ -152,10 +146,9 @@ std::optional<TimedTrajectory> read_with_body(const Item& item, const Stage& sta
     // time_of_null() counts from Body::start, and the timing from the trajectory's own zero.
     defaults.tau = body->start + *tau;
   } else if (!s.find("from_r") && !s.find("from_tau_m")) {
-    s.find("body")->fail(
+    return s.find("body")->fail(
         fmt::format("is not there at v = {} M, when the segment begins; give from_tau_m",
                     short_number(stage.null_time - behind)));
-    return std::nullopt;
   }
   const auto timing = read_timing(s, stage, body->trajectory, defaults);
   if (!timing) return std::nullopt;
@@ -218,10 +211,9 @@ std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, 
   const double orbits = rate.span / period;
   if (orbits > kMostOrbits * (1 + 1e-9)) {  // the given number comes back rounded
     const Item* pace = s.one_of({"rate_m_per_s", "time_lapse"});
-    (pace ? *pace : item)
+    return (pace ? *pace : item)
         .fail(fmt::format("makes {} orbits in the segment; at most {} are possible",
                           short_number(orbits), short_number(kMostOrbits)));
-    return std::nullopt;
   }
   Timing timing = timing_of(rate);
   // A number of orbits fixes the end, so that two rates only shape the way there.
@@ -244,11 +236,9 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
   const auto chosen = read_choice(*type, kTypeNames);
   if (!chosen) return std::nullopt;
   const Type& kind = kTypes[*chosen];
-  if (stage.spacetime.is_flat() && !kind.in_flat_space) {
-    type->fail(
+  if (stage.spacetime.is_flat() && !kind.in_flat_space)
+    return type->fail(
         fmt::format("'{}' needs a black hole: give the show black_hole.mass_solar", kind.name));
-    return std::nullopt;
-  }
   if (stage.spacetime.is<Wormhole>() && kind.name != "continue")
     return read_in_wormhole(kind.name, item, stage);
   if (stage.spacetime.is<ChargedHole>()) {
@@ -256,10 +246,8 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
     if (kind.name == "parabolic" || kind.name == "hyperbolic" || kind.name == "bound" ||
         kind.name == "infall")
       return read_near_charge(kind.name, item, stage);
-    if (!kind.in_flat_space && kind.name != "body") {
-      type->fail(fmt::format("'{}' is for holes without charge", kind.name));
-      return std::nullopt;
-    }
+    if (!kind.in_flat_space && kind.name != "body")
+      return type->fail(fmt::format("'{}' is for holes without charge", kind.name));
   }
   return kind.read(item, stage, lookup);
 }

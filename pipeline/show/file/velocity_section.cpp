@@ -55,8 +55,7 @@ std::optional<V3d> read_components(const Item& item) {
   // The largest component is taken out first, so that the squares of small ones do not vanish.
   const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (size > 0) return (v / size).normalized();
-  item.fail("must not be the zero vector; give radial, theta or phi");
-  return std::nullopt;
+  return item.fail("must not be the zero vector; give radial, theta or phi");
 }
 
 bool names_sky_place(const Item& item) {
@@ -87,10 +86,8 @@ std::optional<V3d> read_direction(const Item& item, const Stage& stage, const Gi
   if (item.node.IsMap() && !names_sky_place(item)) return read_components(item);
   const auto place = read_sky_place(item, lookup, names_of(kWords));
   if (!place) return std::nullopt;
-  if (frame.region == Region::kIV) {
-    item.fail("names a place on the sky, but from region IV no sky is seen");
-    return std::nullopt;
-  }
+  if (frame.region == Region::kIV)
+    return item.fail("names a place on the sky, but from region IV no sky is seen");
   return seen_towards(*place, stage, frame);
 }
 
@@ -160,13 +157,11 @@ std::optional<GivenVelocity> read_frame(const Section& s, const Stage& stage,
   const auto against = s.word(
       "against", {Against::kStatic, Against::kFreeFall, Against::kOutgoing, Against::kConstantT});
   const auto region = s.given_word("region", {Region::kI, Region::kII, Region::kIII, Region::kIV});
-  if (region && !is_found_in(against, *region)) {
-    s.find("region")->fail(
+  if (region && !is_found_in(against, *region))
+    return s.find("region")->fail(
         std::string("of ") + region_name(*region) +
         " has no observer of the kind that 'against' names: static is found in I and III, "
         "free_fall in I, II and III, outgoing in I, III and IV, constant_t in II and IV");
-    return std::nullopt;
-  }
   const double horizon = stage.spacetime.horizon();
   const double nearest = std::max(kNearest, stage.spacetime.innermost() * (1 + 1e-6));
   const auto r = s.required(radius_key, radii(against, region, horizon, nearest));
