@@ -15,12 +15,12 @@
 namespace domefall {
 namespace {
 
-struct Motion {
+struct Conserved {
   double energy, radial, momentum;
 };
 
 // What a state says by the components of d/dt along T and R.
-Motion motion_of(const ChargedHole& hole, const OrbitPoint& p) {
+Conserved conserved_by(const ChargedHole& hole, const OrbitPoint& p) {
   const StaticTime time = hole.static_time(p.r);
   const double along_r = is_outgoing(p.tetrad) ? -time.along_r : time.along_r;
   const double gamma = std::sqrt(1 + p.celerity.length2());
@@ -55,7 +55,7 @@ TEST(ChargedOrbit, KeepsItsEnergyAndAngularMomentum) {
     for (const double share : {-0.49, -0.1, -1e-3, 1e-3, 0.2, 0.45}) {
       const double span = std::min(c.orbit.radial_period(), 200.0);
       const OrbitPoint p = c.orbit.at(share * span);
-      const Motion m = motion_of(c.hole, p);
+      const Conserved m = conserved_by(c.hole, p);
       const double size = std::sqrt(1 + p.celerity.length2());
       EXPECT_NEAR(m.energy, c.orbit.energy(), 3e-12 * size * size) << c.name << " " << p.r;
       EXPECT_NEAR(m.momentum, c.orbit.angular_momentum(), 1e-13 * (1 + p.r)) << c.name;
@@ -78,7 +78,7 @@ TEST(ChargedOrbit, FollowsTheGeodesicEquation) {
     };
     const double span = std::min(0.9 * c.orbit.radial_period(), 100.0);
     const OrbitPoint from = c.orbit.at(-span / 2), to = c.orbit.at(span / 3);
-    State x{from.r, motion_of(c.hole, from).radial, from.azimuth};
+    State x{from.r, conserved_by(c.hole, from).radial, from.azimuth};
     odeint::integrate_adaptive(
         odeint::make_controlled(1e-14, 1e-13, odeint::runge_kutta_fehlberg78<State>()), equations,
         x, -span / 2, span / 3, 1e-3);
@@ -157,7 +157,7 @@ TEST(ChargedCircle, IsTheOrbitWhoseTurningPointsAreOne) {
     const ChargedHole hole(1, q);
     const ChargedCircle circle{hole, 9};
     const ChargedOrbit ellipse = ChargedOrbit::between(hole, 9 - 1e-6, 9 + 1e-6);
-    const Motion m = motion_of(hole, circle.at(0));
+    const Conserved m = conserved_by(hole, circle.at(0));
     EXPECT_NEAR(m.energy, ellipse.energy(), 1e-10);
     EXPECT_NEAR(m.momentum, ellipse.angular_momentum(), 1e-9);
     EXPECT_NEAR(m.radial, 0, 1e-14);

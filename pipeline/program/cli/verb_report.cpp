@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "pipeline/base/regular_file.h"
 #include "pipeline/base/talk.h"
 #include "pipeline/base/temporary_file.h"
 #include "pipeline/program/cli/option_types.h"

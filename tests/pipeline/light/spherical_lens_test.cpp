@@ -106,8 +106,8 @@ TEST(SphericalLens, FollowsLightAsTheExactAzimuthDoes) {
       ASSERT_EQ(ray.sky, exact.sky) << name_of(o);
       if (ray.sky == SkyRegion::kIV) continue;
       const double sine = std::hypot(d.y, d.z);
-      const V3d place = V3d(std::cos(exact.azimuth), 0, 0) +
-                        V3d(0, d.y, d.z) * (std::sin(exact.azimuth) / sine);
+      const V3d place =
+          V3d(std::cos(exact.azimuth), 0, 0) + V3d(0, d.y, d.z) * (std::sin(exact.azimuth) / sine);
       worst = std::max(worst, (ray.sky_direction - place).length());
       EXPECT_NEAR(ray.frequency_ratio * exact.energy, 1, 1e-9) << name_of(o);
     }
@@ -177,7 +177,7 @@ TEST(SphericalLens, SeesTheSkiesWithinTheirBorders) {
         within += (circle.axis.dot(d) > circle.cosine) == border.sky_within;
       }
       EXPECT_EQ(within, lens->ray(d).sky == SkyRegion::kIV ? 0 : 1) << name_of(o);
-      if (o.spacetime.is<Wormhole>()) EXPECT_EQ(within, 1);
+      EXPECT_TRUE(within == 1 || !o.spacetime.is<Wormhole>());
     }
   }
 }
