@@ -87,6 +87,7 @@ std::vector<V3d> SphericalLens::special_directions() const {
 
 ViewRay SphericalLens::ray(const V3d& d) const {
   ViewRay ray;
+  ray.sky_direction = V3d(0, 0, 0);
   const double sin_alpha = std::hypot(d.y, d.z);
   const double inward = optics_->inward;
   const HalfAngle half = half_angle(-inward * d.x, sin_alpha);

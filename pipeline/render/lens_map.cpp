@@ -48,13 +48,16 @@ class LensMapper {
     const auto set = [out](LensChannel channel, double value) {
       out[channel] = static_cast<float>(value);
     };
-    set(kSkyX, ray.sky_direction.x);
-    set(kSkyY, ray.sky_direction.y);
-    set(kSkyZ, ray.sky_direction.z);
-    const SkyMapPlace place = sky_map_place(ray.sky_direction);
-    set(kStS, place.s);
-    set(kStT, place.t);
-    out[kSkyRegion] = number_of(ray.sky);
+    // A ray that comes from no sky, as within the silhouette of a charged hole, leaves these 0.
+    if (ray.known) {
+      set(kSkyX, ray.sky_direction.x);
+      set(kSkyY, ray.sky_direction.y);
+      set(kSkyZ, ray.sky_direction.z);
+      const SkyMapPlace place = sky_map_place(ray.sky_direction);
+      set(kStS, place.s);
+      set(kStT, place.t);
+      out[kSkyRegion] = number_of(ray.sky);
+    }
     // The distance is infinite where there is no edge, and no two directions are farther apart than
     // half a turn.
     set(kEdgeDistance, std::min(ray.to_edge * kHalfTurn / std::numbers::pi, kHalfTurn));

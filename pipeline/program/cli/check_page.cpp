@@ -64,8 +64,15 @@ class Page {
     if (const auto mass = show_.spacetime.solar_masses())
       line("black hole", fmt::format("{:.6g} solar masses: 1 M lasts {}", *mass,
                                      duration_text(show_.spacetime.seconds_per_m())));
+    else if (const auto* wormhole = std::get_if<Wormhole>(&show_.spacetime.kind()))
+      line("wormhole",
+           fmt::format("{:.6g} km radius of its throat, which light takes {} for",
+                       wormhole->radius_km, duration_text(show_.spacetime.seconds_per_m())));
     else
       line("black hole", "none: flat space");
+    if (const auto* hole = std::get_if<ChargedHole>(&show_.spacetime.kind()))
+      line("charge", fmt::format("{:.6g} of its mass: horizons at r = {:.6g} M and {:.6g} M",
+                                 hole->charge, hole->horizon(), hole->inner_horizon()));
   }
 
   void skies() {
@@ -108,20 +115,24 @@ class Page {
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
+  // Returns the unit of lengths and proper times: seconds, M, or radii of a wormhole's throat.
+  const char* unit() const {
+    return show_.spacetime.is_flat() ? "s" : show_.spacetime.is<Wormhole>() ? "radii" : "M";
+  }
+
   std::string proper_time(double span) const {
     if (show_.spacetime.is_flat()) return duration_text(span);
-    return fmt::format("{:.6g} M ({})", span,
+    return fmt::format("{:.6g} {} ({})", span, unit(),
                        duration_text(span * show_.spacetime.seconds_per_m()));
   }
 
   std::string rate(const SegmentSurvey& s) const {
-    const char* unit = show_.spacetime.is_flat() ? "s" : "M";
     const double mean = s.proper_time / (s.end_s - s.begin_s);
     const bool steady = std::abs(s.rate_end - s.rate_begin) <= 1e-3 * std::abs(mean) &&
                         std::abs(s.rate_end - mean) <= 1e-3 * std::abs(mean);
-    return steady ? fmt::format("{:.4g} {} a second", mean, unit)
-                  : fmt::format("{:.4g} {} a second ({:.4g} at first, {:.4g} at last)", mean, unit,
-                                s.rate_begin, s.rate_end);
+    return steady ? fmt::format("{:.4g} {} a second", mean, unit())
+                  : fmt::format("{:.4g} {} a second ({:.4g} at first, {:.4g} at last)", mean,
+                                unit(), s.rate_begin, s.rate_end);
   }
 
   void segment(std::size_t k) {
@@ -131,9 +142,10 @@ class Page {
          fmt::format("{}, {:.6g} s to {:.6g} s", s.type, s.begin_s, s.end_s));
     std::string text = "flat space; ";
     if (!show_.spacetime.is_flat()) {
-      text = fmt::format("r = {:.6g} M to {:.6g} M", s.r_begin, s.r_end);
+      text = fmt::format("r = {:.6g} {} to {:.6g} {}", s.r_begin, unit(), s.r_end, unit());
       if (s.closest.value < std::min(s.r_begin, s.r_end) * (1 - 1e-6))
-        text += fmt::format(", closest {:.6g} M at {:.5g} s", s.closest.value, s.closest.time_s);
+        text += fmt::format(", closest {:.6g} {} at {:.5g} s", s.closest.value, unit(),
+                            s.closest.time_s);
       line("", text + "; region " + regions_text(s.regions));
       text.clear();
     }
@@ -151,7 +163,8 @@ class Page {
       add(changes, fmt::format("region {} to {}", region_name(j.region_before),
                                region_name(j.region_after)));
     if (j.place_jumps() && j.r_before != j.r_after)
-      add(changes, fmt::format("r jumps from {:.6g} M to {:.6g} M", j.r_before, j.r_after));
+      add(changes, fmt::format("r jumps from {:.6g} {} to {:.6g} {}", j.r_before, unit(), j.r_after,
+                               unit()));
     if (j.velocity_jumps())
       add(changes, fmt::format("velocity jumps by {:.4g} of light's", *j.speed));
     if (changes.empty()) changes = "the motion goes on";
@@ -180,7 +193,7 @@ class Page {
     if (!show_.spacetime.is_flat()) line("regions", regions_text(r_.survey.regions));
     black();
     if (const auto& e = r_.survey.closest)
-      line("closest", fmt::format("r = {:.6g} M, ", e->value) + place(*e));
+      line("closest", fmt::format("r = {:.6g} {}, ", e->value, unit()) + place(*e));
     if (const auto& e = r_.survey.fastest) {
       const double gamma = std::hypot(1.0, e->value);
       line("fastest",

@@ -153,7 +153,7 @@ std::vector<VerbNotes> notes_of_numbers() {
        "theta is his place and eta the light's direction about -R, from Theta to Phi.\n"
        "The answer is the origin (I, III, H for the past horizon, B for nowhere; beyond,\n"
        "for H: E for an earlier universe's sky), the place on that sky, shift,\n"
-       "amplification, turns in theta, and Mino's time.",
+       "amplification, turns in theta, and Mino's time, by the exact integral.",
        {{"domefall trace --table rays.csv --method exact >traced.csv", "by elliptic integrals"}},
        "accuracy.md"},
       {"report",

@@ -86,6 +86,10 @@ void print_text(const Probed& p) {
         disc.r, disc.azimuth_deg, 1 / disc.frequency_ratio, disc.temperature, disc.order,
         disc.covered);
   if (!p.disc.empty()) fmt::print("behind it    {:.4g} of the light is left\n", p.left_of_sky);
+  if (!p.ray.known) {
+    fmt::print("sees         no light of any sky\n");
+    return;
+  }
   const Equatorial at = equatorial({p.ray.sky_direction});
   fmt::print("sees         {} {}, RA {:.6f} deg, Dec {:.6f} deg\n",
              p.from_singularity() ? "the past singularity, region" : "sky", name_of(p.ray.sky),
@@ -169,7 +173,7 @@ void print_probe_json(const Probed& p) {
                {"inside", p.inside()},
                {"region", is_flat(observer) ? Json() : Json(region_name(observer.region))},
                {"r", json_number(observer.r)},
-               {"sky", name_of(p.ray.sky)},
+               {"sky", p.ray.known ? Json(name_of(p.ray.sky)) : Json()},
                {"direction", {json_number(to.x), json_number(to.y), json_number(to.z)}},
                {"ra_deg", json_number(at.ra_deg)},
                {"dec_deg", json_number(at.dec_deg)},

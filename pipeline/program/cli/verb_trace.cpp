@@ -97,7 +97,7 @@ void print_cell(double value) {
 void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
   if (is_charged_ray_table(CsvFile(file))) {
     if (is_integrator(method))
-      throw InputError("rays near a charge are traced by table or exact, not by an integrator");
+      throw InputError("rays near a charge are traced by the exact integral, not by an integrator");
     trace_charged_rays(file);
     return;
   }
