@@ -22,7 +22,7 @@ struct OrbitPoint {
   // other.
   DoubleDouble null_time{};
   int universe = 0;  // of those that follow each other through a charged hole
-  double l = 0;  // of a wormhole, as in ObserverState
+  double l = 0;      // of a wormhole, as in ObserverState
 };
 
 }  // namespace domefall

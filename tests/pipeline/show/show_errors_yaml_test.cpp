@@ -33,12 +33,14 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"", "1:1: the show is empty; it needs a timeline at least"},
       {"# nothing yet\n", "1:1: the show is empty; it needs a timeline at least"},
       {"- a\n",
-       "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, wormhole, camera, "
+       "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, wormhole, "
+       "camera, "
        "effects, sky, stars, disc, bodies, exposure, grade, dome, output, begins_year, cameras, "
        "keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or timeline), got a "
        "list"},
       {"hello\n",
-       "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, wormhole, camera, "
+       "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, wormhole, "
+       "camera, "
        "effects, sky, stars, disc, bodies, exposure, grade, dome, output, begins_year, cameras, "
        "keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or timeline), got "
        "'hello'"},
@@ -177,7 +179,8 @@ TEST_F(ShowErrorsInYaml, CharactersThatLookLikeOthersAreNamedWithTheirCode) {
       {"timeline:\n\u00a0 - duration_s: 1\n",
        "1:1: timeline must be a list of at least one entry, got nothing\n2:1: \xC2\xA0 - "
        "duration_s is an unknown key; it begins with a no-break space (U+00A0), not a space; known "
-       "here: title, frames_per_second, size, black_hole, wormhole, camera, effects, sky, stars, disc, "
+       "here: title, frames_per_second, size, black_hole, wormhole, camera, effects, sky, stars, "
+       "disc, "
        "bodies, exposure, grade, dome, output, begins_year, cameras, keyframes, titles, "
        "draw_titles, markers, "
        "audio, "
