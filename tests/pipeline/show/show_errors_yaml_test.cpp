@@ -67,6 +67,7 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
   expect_complaints_of_lines({
       {"projection: domemaster",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
+       "wormhole, "
        "camera, effects, sky, stars, disc, bodies, exposure, grade, dome, output, begins_year, "
        "cameras, keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or "
        "timeline"},
