@@ -22,7 +22,7 @@ constexpr double kOutermost = 1e10;  // M
 
 long double value(const Polynomial& p, long double x) {
   long double sum = 0;
-  for (auto c = p.rbegin(); c != p.rend(); ++c) sum = sum * x + *c;
+  for (std::size_t k = p.size(); k > 0; --k) sum = sum * x + p[k - 1];
   return sum;
 }
 
@@ -173,7 +173,7 @@ ChargedOrbit ChargedOrbit::by_periastron(const ChargedHole& hole, double r, doub
                 "inside the horizon none is given by its periastron");
   const long double w = 1 / static_cast<long double>(r), q = hole.charge_long();
   const long double f = 1 + w * (q * q * w - 2);
-  const double l = static_cast<double>(std::sqrt((excess_energy + 1 - f) / f) / w);
+  const auto l = static_cast<double>(std::sqrt((excess_energy + 1 - f) / f) / w);
   const Polynomial rest = divided(radial_polynomial(hole, excess_energy, l), w);
   if (!(value(rest, w) < 0))
     throw std::domain_error("periastron must be larger, got " + short_number(r) +

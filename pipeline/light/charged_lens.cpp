@@ -11,11 +11,11 @@ namespace {
 SkyZone zone_of(const ChargedView& view, Critical edge) {
   const auto tangent = static_cast<double>(view.tan_half_critical(edge));
   const double sign = edge == Critical::kFirst ? 1 : -1;
-  const double f = static_cast<double>(view.lapse_squared());
+  const auto f = static_cast<double>(view.lapse_squared());
   SkyZone zone;
   zone.edge = {half_angle_of_tangent(tangent), sign};
   zone.reach = sign > 0 ? 2 * std::atan2(1.0, tangent) : 2 * std::atan(tangent);
-  const double other =
+  const auto other =
       static_cast<double>(view.tan_half_critical(sign > 0 ? Critical::kSecond : Critical::kFirst));
   const double apart = std::abs(tangent - other);
   zone.least = std::min({1.0, 2 * std::atan(std::min(tangent, 1 / tangent)),

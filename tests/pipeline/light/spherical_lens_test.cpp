@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "pipeline/light/aberration.h"
@@ -15,8 +14,6 @@
 
 namespace domefall {
 namespace {
-
-using std::numbers::pi;
 
 ObserverState near_charge(double charge, double r, Region region = Region::kI,
                           Tetrad tetrad = Tetrad::kRain) {
