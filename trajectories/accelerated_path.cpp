@@ -92,23 +92,16 @@ void check_keys(const std::vector<PathKey>& keys) {
 
 std::vector<Piece> pieces_of(const std::vector<PathKey>& keys) {
   std::vector<double> taus, radii, azimuths;
+  std::vector<std::optional<double>> radial, swept;
   for (const PathKey& key : keys) {
     taus.push_back(key.tau), radii.push_back(key.r), azimuths.push_back(key.azimuth);
+    radial.push_back(key.radial_rate), swept.push_back(key.azimuth_rate);
   }
-  std::vector<double> radial = monotone_slopes(taus, radii),
-                      swept = monotone_slopes(taus, azimuths);
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    radial[k] = keys[k].radial_rate.value_or(radial[k]);
-    swept[k] = keys[k].azimuth_rate.value_or(swept[k]);
-  }
+  const auto r = cubics_between(taus, radii, radial),
+             azimuth = cubics_between(taus, azimuths, swept);
   std::vector<Piece> pieces;
-  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
-    const double span = taus[k + 1] - taus[k];
-    pieces.push_back(
-        {taus[k], taus[k + 1],
-         HermiteCubic(radii[k], radii[k + 1], radial[k] * span, radial[k + 1] * span),
-         HermiteCubic(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
-  }
+  for (std::size_t k = 0; k < r.size(); ++k)
+    pieces.push_back({taus[k], taus[k + 1], r[k], azimuth[k]});
   return pieces;
 }
 

@@ -17,8 +17,6 @@ double end_slope(double span, double own, double next_span, double next) {
   return slope;
 }
 
-}  // namespace
-
 std::vector<double> monotone_slopes(const std::vector<double>& taus,
                                     const std::vector<double>& values) {
   const std::size_t n = taus.size();
@@ -31,6 +29,21 @@ std::vector<double> monotone_slopes(const std::vector<double>& taus,
   for (std::size_t k = 1; k + 1 < n; ++k)
     slope[k] = monotone_slope(span[k - 1], rise[k - 1], span[k], rise[k]);
   return slope;
+}
+
+}  // namespace
+
+std::vector<HermiteCubic> cubics_between(const std::vector<double>& taus,
+                                         const std::vector<double>& values,
+                                         const std::vector<std::optional<double>>& rates) {
+  const std::vector<double> slopes = monotone_slopes(taus, values);
+  std::vector<HermiteCubic> cubics;
+  for (std::size_t k = 0; k + 1 < taus.size(); ++k) {
+    const double span = taus[k + 1] - taus[k];
+    cubics.emplace_back(values[k], values[k + 1], rates[k].value_or(slopes[k]) * span,
+                        rates[k + 1].value_or(slopes[k + 1]) * span);
+  }
+  return cubics;
 }
 
 std::vector<double> turns_of(const HermiteCubic& c) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace domefall {
@@ -33,10 +34,12 @@ inline double monotone_slope(double length_before, double before, double length_
   return (a + b) / (a / before + b / after);
 }
 
-// Returns such slopes for all keys, of which there are at least two.  Those of the first and the last
-// key are of the parabola through the next two, within what keeps the curve from turning.
-std::vector<double> monotone_slopes(const std::vector<double>& taus,
-                                    const std::vector<double>& values);
+// Returns the cubics between keys, of which there are at least two, in the order of their times.
+// `rates` holds the slopes by time that are given.  The others are such slopes, and at the first and
+// the last key those of the parabola through the next two, within what keeps the curve from turning.
+std::vector<HermiteCubic> cubics_between(const std::vector<double>& taus,
+                                         const std::vector<double>& values,
+                                         const std::vector<std::optional<double>>& rates);
 
 // Returns where the cubic turns, between 0 and 1, with both ends.
 std::vector<double> turns_of(const HermiteCubic& c);

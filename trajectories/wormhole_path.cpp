@@ -208,21 +208,16 @@ void check_wormhole_keys(const std::vector<WormholeKey>& keys) {
 
 std::vector<WormholePiece> wormhole_pieces(const std::vector<WormholeKey>& keys) {
   std::vector<double> taus, places, azimuths;
-  for (const WormholeKey& key : keys)
+  std::vector<std::optional<double>> rates, swept;
+  for (const WormholeKey& key : keys) {
     taus.push_back(key.tau), places.push_back(key.l), azimuths.push_back(key.azimuth);
-  std::vector<double> rate = monotone_slopes(taus, places), swept = monotone_slopes(taus, azimuths);
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    rate[k] = keys[k].rate.value_or(rate[k]);
-    swept[k] = keys[k].azimuth_rate.value_or(swept[k]);
+    rates.push_back(key.rate), swept.push_back(key.azimuth_rate);
   }
+  const auto l = cubics_between(taus, places, rates),
+             azimuth = cubics_between(taus, azimuths, swept);
   std::vector<WormholePiece> pieces;
-  for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
-    const double span = taus[k + 1] - taus[k];
-    pieces.push_back(
-        {taus[k], taus[k + 1],
-         HermiteCubic(places[k], places[k + 1], rate[k] * span, rate[k + 1] * span),
-         HermiteCubic(azimuths[k], azimuths[k + 1], swept[k] * span, swept[k + 1] * span)});
-  }
+  for (std::size_t k = 0; k < l.size(); ++k)
+    pieces.push_back({taus[k], taus[k + 1], l[k], azimuth[k]});
   return pieces;
 }
 

@@ -66,39 +66,23 @@ struct EdgeValues {
   bool counts;
 };
 
-// Assigns the rays on the first sky's side of its edge to that sky, and all others to the hole.
-// The coordinate x is half the angle to the edge to first order.
-[[gnu::always_inline]] inline void assign_first_loop(const EdgeValues& first,
-                                                     const TetradRays& __restrict rays, int count,
-                                                     LensedRays& __restrict lensed,
-                                                     double* __restrict to_edge) {
-  const EdgeValues e = first;
-  for (int k = 0; k < count; ++k) {
-    const double x = e.edge.distance(rays.sin_half[k], rays.cos_half[k]);
-    lensed.azimuths.x[k] = x;
-    lensed.azimuths.curve[k] = x > 0 ? kFirst : kHole;
-    const double away = 2 * std::abs(x);
-    to_edge[k] = e.counts ? away : HUGE_VAL;
-  }
-}
-Dispatched<assign_first_loop> assign_first;
-
-// Assigns the rays on the second sky's side of its edge to that sky, unless the first sky has them.
-[[gnu::always_inline]] inline void assign_second_loop(const EdgeValues& second,
-                                                      const TetradRays& __restrict rays, int count,
-                                                      LensedRays& __restrict lensed,
-                                                      double* __restrict to_edge) {
-  const EdgeValues e = second;
+// Assigns the rays on the sky's side of its edge to that sky's part, unless one before has them.  The
+// coordinate x is half the angle to the edge to first order.
+[[gnu::always_inline]] inline void assign_loop(const EdgeValues& values, std::int64_t part,
+                                               const TetradRays& __restrict rays, int count,
+                                               LensedRays& __restrict lensed,
+                                               double* __restrict to_edge) {
+  const EdgeValues e = values;
   for (int k = 0; k < count; ++k) {
     const double x = e.edge.distance(rays.sin_half[k], rays.cos_half[k]);
     const bool on = (lensed.azimuths.curve[k] == kHole) & (x > 0);
     lensed.azimuths.x[k] = on ? x : lensed.azimuths.x[k];
-    lensed.azimuths.curve[k] = on ? kSecond : lensed.azimuths.curve[k];
+    lensed.azimuths.curve[k] = on ? part : lensed.azimuths.curve[k];
     const double away = e.counts ? 2 * std::abs(x) : HUGE_VAL;
     to_edge[k] = away < to_edge[k] ? away : to_edge[k];
   }
 }
-Dispatched<assign_second_loop> assign_second;
+Dispatched<assign_loop> assign;
 
 // Sets the coordinate x of the rays that belong to the hole (WhiteHoleTable::Place::s), and
 // d x/d alpha of all rays.
@@ -281,18 +265,15 @@ void SphericalLens::rays(const DirectionBatch& n, int count, ViewRayBatch& batch
   find_angles(observer, n, count, rays, batch);
   LensedRays lensed;
   double* to_edge = batch.to_edge.data();
+  std::fill_n(lensed.azimuths.curve.begin(), count, std::int64_t{kHole});
+  std::fill_n(lensed.azimuths.x.begin(), count, -1.0);
+  std::fill_n(to_edge, count, HUGE_VAL);
   const std::vector<SkyPart>& parts = optics_->parts;
-  const auto values_of = [&](const SkyPart& part) {
-    return EdgeValues{part.zone.edge, part.table || optics_->white_hole};
-  };
-  if (!parts.empty()) {
-    assign_first(values_of(parts[0]), rays, count, lensed, to_edge);
-  } else {
-    std::fill_n(lensed.azimuths.curve.begin(), count, std::int64_t{kHole});
-    std::fill_n(lensed.azimuths.x.begin(), count, -1.0);
-    std::fill_n(to_edge, count, HUGE_VAL);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const SkyPart& part = parts[k];
+    assign({part.zone.edge, part.table || optics_->white_hole}, static_cast<std::int64_t>(k), rays,
+           count, lensed, to_edge);
   }
-  if (parts.size() > 1) assign_second(values_of(parts[1]), rays, count, lensed, to_edge);
   std::array<SkyRegion, AzimuthBatch::kCurves> skies;
   skies.fill(SkyRegion::kIV);
   for (std::size_t k = 0; k < parts.size(); ++k) skies[k] = parts[k].sky;

@@ -20,6 +20,12 @@ Range outside(const ChargedHole& hole, std::string_view why) {
   return kUnitsOfM.above(hole.horizon()).because(why).at_most(kFarthest);
 }
 
+Defaults from_apoastron(const ChargedOrbit& orbit) {
+  Defaults start;
+  start.tau = start.after = -orbit.radial_period() / 2;
+  return start;
+}
+
 // What counts by which part an orbit lies above the barrier has no form near a charge.
 bool has_excess(const Section& s) {
   const Item* excess = s.find("excess");
@@ -118,30 +124,38 @@ std::optional<ChargedOrbit> read_fall(const Section& s, const Item& item, const 
 
 }  // namespace
 
-std::optional<TimedTrajectory> read_near_charge(std::string_view type, const Item& item,
-                                                const Stage& stage) {
-  const ChargedHole& hole = hole_of(stage);
-  const Section s(item, {"trajectory", "region", type, "begin", "end", "rates", "pace"});
-  if (has_excess(s)) return std::nullopt;
-  Defaults start;
-  std::optional<ChargedOrbit> orbit;
-  if (type == "parabolic") {
-    orbit = read_escape(s, hole);
-  } else if (type == "hyperbolic") {
-    orbit = read_scattering(s, hole);
-  } else if (type == "bound") {
-    orbit = read_ellipse(s, hole);
-    if (orbit) start.tau = start.after = -orbit->radial_period() / 2;
-  } else {
-    orbit = read_fall(s, item, hole);
-    // A fall from rest begins where it rests.
-    if (orbit && s.find("rest_r")) start.tau = start.after = -orbit->radial_period() / 2;
-    if (hole.inner_horizon() > 0) start.to_r = hole.inner_horizon() * 1.001;
-  }
-  return orbit ? timed(s, stage, *orbit, start, item) : std::nullopt;
+std::optional<TimedTrajectory> read_charged_parabola(const Item& item, const Stage& stage,
+                                                     Lookup&) {
+  const Section s = orbit_section(item, "parabolic");
+  const auto orbit = has_excess(s) ? std::nullopt : read_escape(s, hole_of(stage));
+  return orbit ? timed(s, stage, *orbit, {}, item) : std::nullopt;
 }
 
-std::optional<TimedTrajectory> read_charged_circle(const Item& item, const Stage& stage) {
+std::optional<TimedTrajectory> read_charged_hyperbola(const Item& item, const Stage& stage,
+                                                      Lookup&) {
+  const Section s = orbit_section(item, "hyperbolic");
+  const auto orbit = has_excess(s) ? std::nullopt : read_scattering(s, hole_of(stage));
+  return orbit ? timed(s, stage, *orbit, {}, item) : std::nullopt;
+}
+
+std::optional<TimedTrajectory> read_charged_ellipse(const Item& item, const Stage& stage, Lookup&) {
+  const Section s = orbit_section(item, "bound");
+  const auto orbit = has_excess(s) ? std::nullopt : read_ellipse(s, hole_of(stage));
+  return orbit ? timed(s, stage, *orbit, from_apoastron(*orbit), item) : std::nullopt;
+}
+
+std::optional<TimedTrajectory> read_charged_fall(const Item& item, const Stage& stage, Lookup&) {
+  const Section s = orbit_section(item, "infall");
+  const auto orbit = read_fall(s, item, hole_of(stage));
+  if (!orbit) return std::nullopt;
+  // A fall from rest begins where it rests.
+  Defaults start;
+  if (s.find("rest_r")) start = from_apoastron(*orbit);
+  if (hole_of(stage).inner_horizon() > 0) start.to_r = hole_of(stage).inner_horizon() * 1.001;
+  return timed(s, stage, *orbit, start, item);
+}
+
+std::optional<TimedTrajectory> read_charged_circle(const Item& item, const Stage& stage, Lookup&) {
   const ChargedHole& hole = hole_of(stage);
   const Section s(item, {"trajectory", "region", "circular", "rates", "pace"});
   find_end(s, {"orbits"});

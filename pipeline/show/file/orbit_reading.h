@@ -4,10 +4,16 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "pipeline/show/file/section.h"
 
 namespace domefall {
+
+// Returns a section with the keys of one type and those of every orbit.
+inline Section orbit_section(const Item& item, std::string_view type) {
+  return {item, {"trajectory", "region", "begin", type, "end", "rates", "pace"}};
+}
 
 // Reports that an orbit does not exist.  Trajectories begin their messages with the name of the
 // quantity that is out of bounds.  If the show gives that quantity, its key is blamed, and else the

@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kFallEnd = 0.05;  // M; where falls end by default
 
-Section orbit_section(const Item& item, std::string_view type) {
-  return {item, {"trajectory", "region", "begin", type, "end", "rates", "pace"}};
-}
-
 std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage, const Geodesic& orbit,
                                      const Defaults& start, Placement placement = {}) {
   if (const auto timing = read_timing(s, stage, orbit, start))

@@ -173,22 +173,33 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage,
                          : read_radial_infall(item, stage, lookup);
 }
 
-// A Type holds the word for a kind of trajectory, whether flat space has that kind, and its reader.
+using Reader = std::optional<TimedTrajectory> (*)(const Item& item, const Stage& stage,
+                                                  Lookup& lookup);
+
+// A Type holds the word for a kind of trajectory, whether flat space has that kind, and its readers
+// near a hole without charge, near a charge and in a wormhole, which are null where there is none.
 struct Type {
   std::string_view name;
   bool in_flat_space;
-  std::optional<TimedTrajectory> (*read)(const Item& item, const Stage& stage, Lookup& lookup);
+  Reader plain, charged, wormhole;
 };
 
 // These are the types of trajectory that a show can name.  Those that a body can follow come first.
 constexpr std::array kTypes{
-    Type{"static", true, read_static},        Type{"circular", false, read_circular},
-    Type{"parabolic", false, read_parabolic}, Type{"hyperbolic", false, read_hyperbolic},
-    Type{"bound", false, read_bound},         Type{"infall", false, read_infall},
-    Type{"thrown", false, read_thrown},       Type{"kruskal", false, read_kruskal},
-    Type{"spiral", false, read_spiral},       Type{"braked", false, read_braked},
-    Type{"path", false, read_path},           Type{"velocity", true, read_velocity},
-    Type{"body", false, read_with_body},      Type{"continue", true, read_continue}};
+    Type{"static", true, read_static, read_static, read_wormhole_rest},
+    Type{"circular", false, read_circular, read_charged_circle, read_wormhole_circle},
+    Type{"parabolic", false, read_parabolic, read_charged_parabola, nullptr},
+    Type{"hyperbolic", false, read_hyperbolic, read_charged_hyperbola, nullptr},
+    Type{"bound", false, read_bound, read_charged_ellipse, nullptr},
+    Type{"infall", false, read_infall, read_charged_fall, read_wormhole_fall},
+    Type{"thrown", false, read_thrown, nullptr, nullptr},
+    Type{"kruskal", false, read_kruskal, nullptr, nullptr},
+    Type{"spiral", false, read_spiral, nullptr, nullptr},
+    Type{"braked", false, read_braked, nullptr, nullptr},
+    Type{"path", false, read_path, nullptr, read_wormhole_path},
+    Type{"velocity", true, read_velocity, read_velocity, nullptr},
+    Type{"body", false, read_with_body, nullptr, nullptr},
+    Type{"continue", true, read_continue, read_continue, read_continue}};
 
 constexpr std::array<std::string_view, kTypes.size()> kTypeNames = [] {
   std::array<std::string_view, kTypes.size()> names;
@@ -239,17 +250,15 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
   if (stage.spacetime.is_flat() && !kind.in_flat_space)
     return type->fail(
         fmt::format("'{}' needs a black hole: give the show black_hole.mass_solar", kind.name));
-  if (stage.spacetime.is<Wormhole>() && kind.name != "continue")
-    return read_in_wormhole(kind.name, item, stage);
-  if (stage.spacetime.is<ChargedHole>()) {
-    if (kind.name == "circular") return read_charged_circle(item, stage);
-    if (kind.name == "parabolic" || kind.name == "hyperbolic" || kind.name == "bound" ||
-        kind.name == "infall")
-      return read_near_charge(kind.name, item, stage);
-    if (!kind.in_flat_space && kind.name != "body")
-      return type->fail(fmt::format("'{}' is for holes without charge", kind.name));
-  }
-  return kind.read(item, stage, lookup);
+  const bool wormhole = stage.spacetime.is<Wormhole>(), charged = stage.spacetime.is<ChargedHole>();
+  const Reader Type::*reader = wormhole ? &Type::wormhole : charged ? &Type::charged : &Type::plain;
+  if (kind.*reader != nullptr) return (kind.*reader)(item, stage, lookup);
+  std::vector<std::string_view> possible;
+  for (const Type& other : kTypes)
+    if (other.*reader != nullptr) possible.push_back(other.name);
+  type->fail(fmt::format("{} must be {}, got '{}'", wormhole ? "in a wormhole" : "near a charge",
+                         listed(possible), kind.name));
+  return std::nullopt;
 }
 
 }  // namespace domefall

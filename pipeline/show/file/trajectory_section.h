@@ -109,13 +109,17 @@ std::optional<TimedTrajectory> read_curved_infall(const Item& item, const Stage&
 std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage, Lookup& lookup);
 std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage, Lookup& lookup);
 
-// Reads orbits near a charged hole: parabolic, hyperbolic, bound or infall; and circular.
-std::optional<TimedTrajectory> read_near_charge(std::string_view type, const Item& item,
-                                                const Stage& stage);
-std::optional<TimedTrajectory> read_charged_circle(const Item& item, const Stage& stage);
-// Reads trajectories in a wormhole: static, circular, infall and path.
-std::optional<TimedTrajectory> read_in_wormhole(std::string_view type, const Item& item,
-                                                const Stage& stage);
+// The same near a charged hole, and in a wormhole.
+std::optional<TimedTrajectory> read_charged_circle(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_charged_parabola(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_charged_hyperbola(const Item& item, const Stage& stage,
+                                                      Lookup&);
+std::optional<TimedTrajectory> read_charged_ellipse(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_charged_fall(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_wormhole_rest(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_wormhole_circle(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_wormhole_fall(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage& stage, Lookup&);
 // Returns a circle in its segment, with as many orbits as the rate makes.
 std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, const Stage& stage,
                                             const Trajectory& circle, double period,

@@ -16,7 +16,9 @@ const Wormhole& wormhole_of(const Stage& stage) {
   return std::get<Wormhole>(stage.spacetime.kind());
 }
 
-std::optional<TimedTrajectory> read_held(const Item& item, const Stage& stage) {
+}  // namespace
+
+std::optional<TimedTrajectory> read_wormhole_rest(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "static in a wormhole", "rates"});
   const auto l = s.required("l");
   Timing timing{0, proper_time_in(stage, stage.duration_s)};
@@ -29,7 +31,7 @@ std::optional<TimedTrajectory> read_held(const Item& item, const Stage& stage) {
   return TimedTrajectory{WormholeCircle{wormhole_of(stage), *l}, timing, {}};
 }
 
-std::optional<TimedTrajectory> read_circle(const Item& item, const Stage& stage) {
+std::optional<TimedTrajectory> read_wormhole_circle(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "circular in a wormhole", "rates", "pace"});
   find_end(s, {"orbits"});
   const auto l = s.required("l"), speed = s.required("speed");
@@ -46,7 +48,7 @@ std::optional<TimedTrajectory> read_circle(const Item& item, const Stage& stage)
   return paced_circle(item, s, stage, WormholeCircle{wormhole, *l, *speed}, turn, *rate, false);
 }
 
-std::optional<TimedTrajectory> read_fall(const Item& item, const Stage& stage) {
+std::optional<TimedTrajectory> read_wormhole_fall(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "infall in a wormhole", "rates", "pace"});
   const Item* given = find_end(s, {"to_l"});
   const auto from_l = s.required("from_l"), speed = s.required("speed");
@@ -77,7 +79,7 @@ std::optional<TimedTrajectory> read_fall(const Item& item, const Stage& stage) {
   return TimedTrajectory{*fall, timing, {}};
 }
 
-std::optional<TimedTrajectory> read_flight(const Item& item, const Stage& stage) {
+std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "path in a wormhole", "rates", "pace"});
   const Item* list = s.require("keyframes", ": a list of {at_m, l, azimuth_deg}");
   const auto items = list ? read_list(*list) : std::nullopt;
@@ -98,18 +100,6 @@ std::optional<TimedTrajectory> read_flight(const Item& item, const Stage& stage)
     list->fail(std::string("cannot be flown: ") + error.what());
     return std::nullopt;
   }
-}
-
-}  // namespace
-
-std::optional<TimedTrajectory> read_in_wormhole(std::string_view type, const Item& item,
-                                                const Stage& stage) {
-  if (type == "static") return read_held(item, stage);
-  if (type == "circular") return read_circle(item, stage);
-  if (type == "infall") return read_fall(item, stage);
-  if (type == "path") return read_flight(item, stage);
-  peek(item, "type")->fail("in a wormhole must be static, circular, infall, path or continue");
-  return std::nullopt;
 }
 
 Wormhole read_wormhole(const Section& s) {
