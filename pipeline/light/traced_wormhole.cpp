@@ -49,7 +49,7 @@ WormholeRequest wormhole_at(const WormholePlace& place) {
 
 double edge_delta(const WormholeRequest& request) {
   const HalfAngle edge = throat_edge(request.wormhole, request.l);
-  return 2 * std::atan2(edge.sine, edge.cosine);
+  return edge.angle();
 }
 
 const SkyTable& wormhole_table(const WormholeRequest& request, bool own) {

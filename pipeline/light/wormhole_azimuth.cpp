@@ -122,8 +122,4 @@ double wormhole_azimuth(const Wormhole& wormhole, double l, double offset) {
                                                        : dngr_azimuth(wormhole, ray, l);
 }
 
-double cylinder_azimuth(const Wormhole& wormhole, double l, double offset) {
-  return cylinder_part(wormhole, throat_ray(wormhole, l, offset), l);
-}
-
 }  // namespace domefall

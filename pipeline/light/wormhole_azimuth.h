@@ -32,9 +32,4 @@ HalfAngle throat_edge(const Wormhole& wormhole, double l);
 // 16 us, ellis 0.5 us.
 double wormhole_azimuth(const Wormhole& wormhole, double l, double offset);
 
-// Returns the part of it that is swept in the cylinder, b d/sqrt(1 - b^2) for a way d in it.  It is
-// 0 for ellis and for rays that do not go there.  Next to the edge the rest goes like -ln|offset|,
-// while this grows like 1/|offset| for an observer in the cylinder, and like its root outside.
-double cylinder_azimuth(const Wormhole& wormhole, double l, double offset);
-
 }  // namespace domefall

@@ -1,4 +1,9 @@
 // The optics of a wormhole, for an observer at rest in it.
+//
+// The view has two zones.  In each a sky is seen as a whole, infinitely often towards the edge that
+// they share: the sky of the other side within the circle of the throat, and that of the observer's
+// own side around it.  Angles alpha count from the direction towards the throat, which is -R for
+// l >= 0 and R for l < 0.  The angles of a place are common to both skies.
 #pragma once
 
 #include "pipeline/light/hole_optics.h"
@@ -6,7 +11,7 @@
 
 namespace domefall {
 
-// Makes them without tables.
+// Makes them without tables, with the own side's sky first.
 HoleOptics make_wormhole_optics(const Wormhole& wormhole, const ObserverState& observer);
 
 }  // namespace domefall
