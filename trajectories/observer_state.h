@@ -41,8 +41,9 @@ struct ObserverState {
 inline bool is_flat(const ObserverState& o) { return o.spacetime.is_flat(); }
 
 inline PerSky<bool> seen_skies(const ObserverState& o) {
-  return o.spacetime.seen_skies(o.region, o.tetrad, o.r);
+  return o.spacetime.seen_skies(o.region, o.tetrad, o.universe, o.r);
 }
+inline SkyRegion own_sky(const ObserverState& o) { return own_sky(o.tetrad, o.universe); }
 
 // Says whether there is an observer at rest in r at the same place.
 inline bool has_rest(const ObserverState& o) { return o.spacetime.lapse_squared(o.r) > 0; }

@@ -46,12 +46,12 @@ HoleOptics make_charged_optics(const ChargedHole& hole, const ObserverState& obs
   optics.inward = outgoing ? -1 : 1;
   const bool outside = observer.r > hole.horizon();
   if (outside || !outgoing)
-    optics.parts.push_back({own_sky(observer.tetrad),
-                            zone_of(view, outgoing ? Critical::kSecond : Critical::kFirst),
-                            {}});
-  if (!outside && !outgoing)
     optics.parts.push_back(
-        {own_sky(mirror_of(observer.tetrad)), zone_of(view, Critical::kSecond), {}});
+        {own_sky(observer), zone_of(view, outgoing ? Critical::kSecond : Critical::kFirst), {}});
+  if (!outside && !outgoing)
+    optics.parts.push_back({own_sky(mirror_of(observer.tetrad), observer.universe),
+                            zone_of(view, Critical::kSecond),
+                            {}});
   return optics;
 }
 

@@ -166,6 +166,7 @@ double smooth_over(const NullRay& ray) {
     case SkyRegion::kIII:
       return edge_distance(ray, Critical::kSecond);
     case SkyRegion::kIV:
+    case SkyRegion::kNext:
       break;
   }
   if (outside)

@@ -50,7 +50,7 @@ HoleOptics make_hole_optics(const Radius& at, Tetrad tetrad, WantedSkies wanted)
   const bool outgoing = is_outgoing(tetrad);
   optics.energy = {1 + Schwarzschild::free_fall_speed(at.r), Schwarzschild::below_light_speed(at)};
   optics.inward = outgoing ? -1 : 1;
-  const SkyRegion own = own_sky(tetrad), other = own_sky(mirror_of(tetrad));
+  const SkyRegion own = own_sky(tetrad, 0), other = own_sky(mirror_of(tetrad), 0);
   if (at.above_horizon > 0 || !outgoing) {
     const Critical edge = outgoing ? Critical::kSecond : Critical::kFirst;
     optics.parts.push_back({own, schwarzschild_zone(at, edge, outgoing), {}});

@@ -104,7 +104,7 @@ struct SkySample {
 
 // WantedSkies says which skies a lens must know.  What a black sky would show is not worth a table.
 struct WantedSkies {
-  PerSky<bool> sky{true, true, false};
+  PerSky<bool> sky{true, true, false, true};
   bool emission_times = false;  // of the past singularity's light, only with its sky
 };
 

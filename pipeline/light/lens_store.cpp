@@ -32,8 +32,7 @@ std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
     place_.reset();
     tables_made_ = 0;
     const StraightLight light = straight.value_or(StraightLight{{}, 1});
-    return std::make_shared<StraightLens>(observer.r, observer.tetrad, observer.sky_from_tetrad,
-                                          light.rest, light.shift);
+    return std::make_shared<StraightLens>(observer, light.rest, light.shift);
   }
   const Place place{observer.spacetime, observer.region, observer.tetrad,
                     observer.universe,  observer.r,      observer.l};

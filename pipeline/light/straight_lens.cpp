@@ -46,7 +46,7 @@ class StraightPoints : public SkyPoints {
 
 std::unique_ptr<const SkyPoints> StraightLens::points(SkyRegion sky,
                                                       const std::optional<PointTolerance>&) const {
-  return sky == own_sky(tetrad_) ? std::make_unique<StraightPoints>(shift_) : nullptr;
+  return sky == sky_ ? std::make_unique<StraightPoints>(shift_) : nullptr;
 }
 
 std::unique_ptr<const PlaneRays> StraightLens::plane(const PlaneRings& rings,
@@ -56,12 +56,12 @@ std::unique_ptr<const PlaneRays> StraightLens::plane(const PlaneRings& rings,
 
 void StraightLens::rays(const DirectionBatch& directions, int count, ViewRayBatch& rays) const {
   straight_rays(sky_from_tetrad_, shift_, directions, count, rays);
-  std::fill_n(rays.sky.begin(), count, own_sky(tetrad_));
+  std::fill_n(rays.sky.begin(), count, sky_);
 }
 
 ViewRay StraightLens::ray(const V3d& direction) const {
   ViewRay ray;
-  ray.sky = own_sky(tetrad_);
+  ray.sky = sky_;
   ray.known = true;
   ray.sky_direction = apply(sky_from_tetrad_, direction);
   ray.frequency_ratio = shift_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pipeline/light/lens.h"
+#include "trajectories/observer_state.h"
 
 namespace domefall {
 
@@ -10,9 +11,13 @@ class StraightLens : public Lens {
  public:
   // `frame` is the celerity of the observer at rest, and `shift` the frequency ratio of all light in
   // that observer's frame.
-  StraightLens(double r, Tetrad tetrad, const M33d& sky_from_tetrad,
-               const Celerity<ReferenceTetrad>& frame, double shift)
-      : r_(r), tetrad_(tetrad), sky_from_tetrad_(sky_from_tetrad), frame_(frame), shift_(shift) {}
+  StraightLens(const ObserverState& observer, const Celerity<ReferenceTetrad>& frame, double shift)
+      : r_(observer.r),
+        tetrad_(observer.tetrad),
+        sky_(own_sky(observer)),
+        sky_from_tetrad_(observer.sky_from_tetrad),
+        frame_(frame),
+        shift_(shift) {}
 
   Celerity<ReferenceTetrad> frame() const override { return frame_; }
   void rays(const DirectionBatch& directions, int count, ViewRayBatch& rays) const override;
@@ -26,6 +31,7 @@ class StraightLens : public Lens {
  private:
   double r_;
   Tetrad tetrad_;
+  SkyRegion sky_;
   M33d sky_from_tetrad_;
   Celerity<ReferenceTetrad> frame_;
   double shift_;

@@ -15,7 +15,7 @@ struct DiscScene {
       : plan(plan_without_skies(show, state)),
         light(plan.disc ? std::optional<DiscLight>(*show.disc) : std::nullopt),
         scene(show, state, plan,
-              lens_of(state.observer, WantedSkies{{true, true, true}}, show.effects), {}, {},
+              lens_of(state.observer, WantedSkies{{true, true, true, true}}, show.effects), {}, {},
               light ? &*light : nullptr) {
     if (light) disc.emplace(scene);
   }

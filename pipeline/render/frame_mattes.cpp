@@ -66,7 +66,7 @@ void MattePass::fill_body(std::size_t body, int first, int end, const float* rgb
 
 void MattePass::fill_skies(int row, const std::vector<float*>& covered) const {
   const Projection& projection = scene_.projection();
-  const SkyRegion own = own_sky(scene_.state.observer.tetrad);
+  const SkyRegion own = own_sky(scene_.state.observer);
   const ColumnRange inside = inside_columns(projection, row);
   for (int column = inside.first; column <= inside.last; ++column) {
     const PixelPosition pixel{column + 1.0, row + 1.0};

@@ -14,6 +14,7 @@ void add_observer(Digest& digest, const ObserverState& o) {
   if (!parameters.empty())
     digest.add("spacetime").add(static_cast<int>(o.spacetime.kind().index()));
   for (const double parameter : parameters) digest.add(rounded_for_key(parameter));
+  if (o.universe != 0) digest.add("universe").add(o.universe);
   for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(rounded_for_key(v));
   add_rotation(digest, o.sky_from_tetrad);
   add_rotation(digest, o.tetrad_from_camera);

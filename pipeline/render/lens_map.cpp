@@ -27,9 +27,11 @@ float number_of(SkyRegion sky) {
     case SkyRegion::kIII:
       return 3;
     case SkyRegion::kIV:
+      return 4;
+    case SkyRegion::kNext:
       break;
   }
-  return 4;
+  return 5;
 }
 
 // A LensMapper follows the rays of one instant, for any number of threads at a time.

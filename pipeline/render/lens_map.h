@@ -17,7 +17,8 @@ enum LensChannel {
   kSkyZ,
   kStS,  // place on a map by longitude and latitude: from the left and the bottom, 0 to 1
   kStT,
-  kSkyRegion,      // 1, 3 or 4; 0 outside the image, where all other channels are 0, too
+  kSkyRegion,      // 1, 3, 4, or 5 for that of the next universe; 0 outside the image, where all
+                   // other channels are 0, too
   kOnePlusZ,       // 0 for the past singularity's light, as are the next two
   kAmplification,  // over the pixel's width
   kOrder,          // of the image: whole half turns about the hole

@@ -18,15 +18,18 @@ enum class Channel {
   kDomeTilt,
   kFov,
   kEv,
-  kGainI,  // of a sky's background; each triple is in the order of SkyRegion
+  kGainI,  // of a sky's background; each four are in the order of SkyRegion
   kGainIII,
   kGainIV,
+  kGainNext,
   kStarGainI,  // region IV has no stars, so that no show file changes its channels of stars
   kStarGainIII,
   kStarGainIV,
+  kStarGainNext,
   kMaxMagnitudeI,  // of the faintest stars taken
   kMaxMagnitudeIII,
   kMaxMagnitudeIV,
+  kMaxMagnitudeNext,
   kDiscLuminance,
   kDiscOpacity,
   kTitleGain,  // of all titles
@@ -42,7 +45,7 @@ enum class Channel {
   kPowerB,
   kSaturation
 };
-inline constexpr std::size_t kChannels = 28;
+inline constexpr std::size_t kChannels = 31;
 
 inline constexpr std::array<Channel, kChannels> kEveryChannel = [] {
   std::array<Channel, kChannels> all{};
@@ -104,7 +107,7 @@ Cdl cdl_from(const Value& value) {
 }
 
 // Each sky has a key of its own in the section `sky` of show files.
-inline constexpr PerSky<std::string_view> kSkyKeys{{"region_I", "region_III", "region_IV"}};
+inline constexpr PerSky<std::string_view> kSkyKeys{{"region_I", "region_III", "region_IV", "next"}};
 
 // Returns the key of a channel in show files, such as "roll_deg".  The key of a channel outside
 // `camera` is a whole path, and the colours of a triple share one.
@@ -117,12 +120,15 @@ inline std::string key_of(Channel channel) {
                                                           "sky.region_I.gain",
                                                           "sky.region_III.gain",
                                                           "sky.region_IV.gain",
+                                                          "sky.next.gain",
                                                           "sky.region_I.stars.gain",
                                                           "sky.region_III.stars.gain",
                                                           "sky.region_IV.stars.gain",
+                                                          "sky.next.stars.gain",
                                                           "sky.region_I.stars.max_magnitude",
                                                           "sky.region_III.stars.max_magnitude",
                                                           "sky.region_IV.stars.max_magnitude",
+                                                          "sky.next.stars.max_magnitude",
                                                           "disc.luminance_cd_m2",
                                                           "disc.opacity",
                                                           "title_light.gain",

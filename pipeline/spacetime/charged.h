@@ -110,12 +110,12 @@ struct ChargedHole {
   // Says which of the skies I and III are seen at r of a region, where light is bent.  Both are seen
   // between the horizons only: beyond r_- no light of the other exterior arrives.  What is seen of
   // an earlier universe is not told.
-  PerSky<bool> seen_skies(Region region, Tetrad tetrad, double r) const {
+  PerSky<bool> seen_skies(Region region, Tetrad tetrad, int universe, double r) const {
     const ChargedRadius place = at(r);
     const bool between = !is_naked() && place.above_outer < 0 && place.above_inner > 0;
     PerSky<bool> seen;
-    for (const SkyRegion sky : kExteriorSkies)
-      seen[sky] = sky == own_sky(tetrad) ? region != Region::kIV : region == Region::kII && between;
+    seen[own_sky(tetrad, universe)] = region != Region::kIV;
+    seen[own_sky(mirror_of(tetrad), universe)] = region == Region::kII && between;
     return seen;
   }
 

@@ -72,19 +72,24 @@ constexpr Tetrad mirror_of(Tetrad t) {
   return is_mirrored(t) ? Tetrad::kRain : Tetrad::kRainOfThree;
 }
 
-// A SkyRegion is the region in which light started that reaches the observer.
-enum class SkyRegion : char { kI, kIII, kIV };
-inline constexpr std::array kEverySky{SkyRegion::kI, SkyRegion::kIII, SkyRegion::kIV};
-// These are the skies of the two exteriors.  Only they have stars.
-inline constexpr std::array kExteriorSkies{SkyRegion::kI, SkyRegion::kIII};
+// A SkyRegion is the region in which light started that reaches the observer.  Through a charged hole
+// universes follow each other, of which every other one has the sky kNext in its region I.
+enum class SkyRegion : char { kI, kIII, kIV, kNext };
+inline constexpr std::array kEverySky{SkyRegion::kI, SkyRegion::kIII, SkyRegion::kIV,
+                                      SkyRegion::kNext};
+// These are the skies of the exteriors.  Only they have stars.
+inline constexpr std::array kExteriorSkies{SkyRegion::kI, SkyRegion::kIII, SkyRegion::kNext};
 
 inline const char* name_of(SkyRegion sky) {
-  constexpr std::array kNames{"I", "III", "IV"};
+  constexpr std::array kNames{"I", "III", "IV", "next"};
   return kNames[static_cast<std::size_t>(sky)];
 }
 
-// Returns the sky of the region, I or III, that a tetrad belongs to.
-constexpr SkyRegion own_sky(Tetrad t) { return is_mirrored(t) ? SkyRegion::kIII : SkyRegion::kI; }
+// Returns the sky of the region, I or III of a universe, that a tetrad belongs to.
+constexpr SkyRegion own_sky(Tetrad t, int universe) {
+  if (is_mirrored(t)) return SkyRegion::kIII;
+  return universe % 2 == 0 ? SkyRegion::kI : SkyRegion::kNext;
+}
 
 // A PerSky has one value for each sky.
 template <class T>

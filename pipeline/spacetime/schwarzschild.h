@@ -97,10 +97,11 @@ struct Schwarzschild {
   // Says which of the skies I and III are seen at r of a region, where light is bent.  No light of
   // either enters region IV.  The sky that is not the tetrad's own is seen inside the future
   // horizon only.
-  static constexpr PerSky<bool> seen_skies(Region region, Tetrad tetrad, double r) {
+  static constexpr PerSky<bool> seen_skies(Region region, Tetrad tetrad, int universe, double r) {
     const bool own = region != Region::kIV, other = region == Region::kII && r < 2;
     PerSky<bool> seen;
-    for (const SkyRegion sky : kExteriorSkies) seen[sky] = sky == own_sky(tetrad) ? own : other;
+    seen[own_sky(tetrad, universe)] = own;
+    seen[own_sky(mirror_of(tetrad), universe)] = other;
     return seen;
   }
 };

@@ -34,9 +34,9 @@ struct FlatSpace {
   static double lapse_squared(double) { return 1; }
   static double resting_celerity(double) { return 0; }
   static double tortoise(double r) { return r; }
-  static PerSky<bool> seen_skies(Region, Tetrad tetrad, double) {
+  static PerSky<bool> seen_skies(Region, Tetrad tetrad, int universe, double) {
     PerSky<bool> seen;
-    seen[own_sky(tetrad)] = true;
+    seen[own_sky(tetrad, universe)] = true;
     return seen;
   }
 };
@@ -114,9 +114,10 @@ class Spacetime {
     return std::visit([r](const auto& kind) { return kind.tortoise(r); }, kind_);
   }
 
-  // Says which of the skies I and III are seen at r of a region, where light is bent.
-  PerSky<bool> seen_skies(Region region, Tetrad tetrad, double r) const {
-    return std::visit([=](const auto& kind) { return kind.seen_skies(region, tetrad, r); }, kind_);
+  // Says which skies of exteriors are seen at r of a region, where light is bent.
+  PerSky<bool> seen_skies(Region region, Tetrad tetrad, int universe, double r) const {
+    return std::visit(
+        [=](const auto& kind) { return kind.seen_skies(region, tetrad, universe, r); }, kind_);
   }
 
  private:

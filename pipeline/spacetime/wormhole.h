@@ -77,9 +77,9 @@ struct Wormhole {
   static double lapse_squared(double) { return 1; }
   static double resting_celerity(double) { return 0; }
   double tortoise(double r) const { return distance(r - 1); }  // |l|, a in the whole cylinder
-  static PerSky<bool> seen_skies(Region, Tetrad, double) {
+  static PerSky<bool> seen_skies(Region, Tetrad, int, double) {
     PerSky<bool> seen;
-    for (const SkyRegion sky : kExteriorSkies) seen[sky] = true;
+    seen[SkyRegion::kI] = seen[SkyRegion::kIII] = true;
     return seen;
   }
 };

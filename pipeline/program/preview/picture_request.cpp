@@ -114,7 +114,7 @@ PerSky<bool> skies_of(const Query& query) {
   for (const std::string& word : query.list("skies")) {
     const auto named = std::find_if(kEverySky.begin(), kEverySky.end(),
                                     [&](SkyRegion sky) { return word == name_of(sky); });
-    if (named == kEverySky.end()) refuse("skies", word, "I, III and IV");
+    if (named == kEverySky.end()) refuse("skies", word, "I, III, IV and next");
     skies[*named] = true;
   }
   return skies;

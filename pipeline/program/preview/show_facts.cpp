@@ -117,7 +117,7 @@ Json states_of(const Show& show) {
     regions.push_back(is_flat(o) ? Json() : Json(region_name(o.region)));
     clocks.push_back(rounded_number(o.proper_time));
     speeds.push_back(rounded_number(shown_speed(o)));
-    const auto shift = frequency_range(o, own_sky(o.tetrad), !show.effects.lensing);
+    const auto shift = frequency_range(o, own_sky(o), !show.effects.lensing);
     shifts.push_back(shift ? rounded_number(1 / shift->largest) : Json());
   }
   return {{"frame", frames},       {"r", r},          {"region", regions},

@@ -31,6 +31,7 @@ struct ShownSky {
 // sees both skies.
 bool segment_sees(const Show& show, const SegmentSurvey& segment, SkyRegion region) {
   if (region == SkyRegion::kIV) return show.spacetime.is<Schwarzschild>();
+  if (region == SkyRegion::kNext) return false;
   if (show.spacetime.is<Wormhole>()) return true;
   const Region outside = region == SkyRegion::kI ? Region::kI : Region::kIII;
   return std::any_of(segment.regions.begin(), segment.regions.end(),

@@ -27,7 +27,7 @@ std::string motion_text(const Show& show, const ObserverState& o) {
     text = fmt::format("gamma v = {} (free fall)", five_digits(o.celerity.length()));
   }
   // With g the observed over the emitted frequency, 1 + z is 1/g.
-  if (const auto range = frequency_range(o, own_sky(o.tetrad), !show.effects.lensing))
+  if (const auto range = frequency_range(o, own_sky(o), !show.effects.lensing))
     text += fmt::format("\n1+z = {} to {}", five_digits(1 / range->largest),
                         five_digits(1 / range->least));
   return text;

@@ -134,7 +134,7 @@ void draw_curves(OverlayKind overlay, const Show& show, const FrameState& state,
                  const FrameRef& frame) {
   if (!show.effects.lensing) return;
   const bool rings = overlay == OverlayKind::kEinsteinRing;
-  const ViewTracer tracer(state, WantedSkies{{rings, rings, false}}, show.effects);
+  const ViewTracer tracer(state, WantedSkies{{rings, rings, false, rings}}, show.effects);
   Marks marks(state, frame);
   if (rings)
     for (const ViewCurve& ring : tracer.einstein_rings()) marks.curve(ring);

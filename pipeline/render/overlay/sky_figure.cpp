@@ -44,7 +44,7 @@ void add_line(const SkyDirection& from, const SkyDirection& to, const DirectSky&
 }  // namespace
 
 DirectSky::DirectSky(const FrameState& state, const Effects& effects)
-    : sky_(own_sky(state.observer.tetrad)), sight_(state, effects) {}
+    : sky_(own_sky(state.observer)), sight_(state, effects) {}
 
 void add_figure(const SkyFigure& figure, const DirectSky& sky, const Projection& projection,
                 Coverage& coverage) {

@@ -42,7 +42,7 @@ double edge_from_hole(const Spacetime& spacetime, double r, bool own) {
 
 std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky, bool straight) {
   if (!seen_skies(o)[sky]) return std::nullopt;
-  const bool own = sky == own_sky(o.tetrad);
+  const bool own = sky == own_sky(o);
   if (straight || is_flat(o)) {
     // The extreme Doppler factors are gamma -+ |c|, each of which is the inverse of the other.
     const double speed = static_celerity(o).length(), gamma = std::hypot(1.0, speed);

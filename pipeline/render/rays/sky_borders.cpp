@@ -91,11 +91,14 @@ double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) c
 PerSky<double> SkyBorders::parts(const CameraDirection& n, double pixel_angle, SkyRegion own,
                                  const PerSky<bool>& seen) const {
   PerSky<double> parts;
-  const SkyRegion other = own == SkyRegion::kI ? SkyRegion::kIII : SkyRegion::kI;
   std::size_t border = 0;
-  for (const SkyRegion sky : {own, other})
+  const auto add = [&](SkyRegion sky) {
     if (seen[sky])
       parts[sky] = curves_.empty() ? 1 : part_within(curves_[border++], n, pixel_angle);
+  };
+  add(own);
+  for (const SkyRegion sky : kExteriorSkies)
+    if (sky != own) add(sky);
   return parts;
 }
 

@@ -169,18 +169,21 @@ UnresolvedSkies find_unresolved_skies(const FrameScene& scene) {
   const UnresolvedSkyFinder finder(scene);
   const V3d& celerity = scene.tracer.viewer().celerity;
   const bool fast = celerity.length() > 1;
+  const SkyRegion own = own_sky(scene.state.observer);
   if (!scene.plan.gravity) {
-    if (scene.background[SkyRegion::kI] && fast) finder.integrate_straight(SkyRegion::kI, found);
+    if (scene.background[own] && fast) finder.integrate_straight(own, found);
     return found;
   }
   const Lens& lens = *scene.tracer.lens();
-  const SkyRegion own = own_sky(scene.state.observer.tetrad);
-  for (const SkyRegion sky : {own, own == SkyRegion::kI ? SkyRegion::kIII : SkyRegion::kI}) {
+  const auto integrate = [&](SkyRegion sky) {
     const auto far_end = lens.far_end(sky);
-    if (!scene.background[sky] || !far_end) continue;
+    if (!scene.background[sky] || !far_end) return;
     finder.integrate_lensed(sky, to_observer(celerity, *far_end).direction, found);
     if (fast) finder.integrate_lensed(sky, celerity.normalized(), found);
-  }
+  };
+  integrate(own);
+  for (const SkyRegion sky : kExteriorSkies)
+    if (sky != own) integrate(sky);
   return found;
 }
 

@@ -228,7 +228,7 @@ void read_planets(const Item& item, Show& show) {
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show) {
   const Section sky(section.find("sky"), {"sky", "sky.law"});
   RegionSky before;  // region III begins with what region I has
-  for (const SkyRegion region : kExteriorSkies) {
+  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
     const Section own(sky.find(kSkyKeys[region]), {"sky.gain", "sky.stars", "sky.background"});
     if (region == SkyRegion::kI) {
       const double star_gain = show.sky[region].star_gain;  // the point-spread law's default

@@ -85,8 +85,8 @@ Exact exact_of(const ObserverState& o, const V3d& d) {
       view.ray_at(polar_angle(std::atan2(static_cast<long double>(across), outgoing ? d.x : -d.x)));
   Exact exact{SkyRegion::kIV, 0, std::abs(static_cast<double>(view.energy(ray)))};
   const ChargedOrigin origin = view.origin_of(ray);
-  if (origin == ChargedOrigin::kOwn) exact.sky = own_sky(o.tetrad);
-  if (origin == ChargedOrigin::kParallel) exact.sky = own_sky(mirror_of(o.tetrad));
+  if (origin == ChargedOrigin::kOwn) exact.sky = own_sky(o);
+  if (origin == ChargedOrigin::kParallel) exact.sky = own_sky(mirror_of(o.tetrad), o.universe);
   if (exact.sky != SkyRegion::kIV) exact.azimuth = view.azimuth(ray);
   return exact;
 }

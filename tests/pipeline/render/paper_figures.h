@@ -51,7 +51,7 @@ class Panel {
   // primary image.
   V3d image(const V3d& sky, int order) const {
     const V3d source = apply_transposed(state.observer.sky_from_tetrad, sky);
-    const auto points = tracer.lens()->points(own_sky(state.observer.tetrad), {});
+    const auto points = tracer.lens()->points(own_sky(state.observer), {});
     const V3d in_tetrad = points->image(source, order, 1e-9).direction.v;
     return in_camera(to_observer(state.observer.celerity, in_tetrad).direction);
   }

@@ -195,7 +195,7 @@ Bytes images_at(const Trajectory& trajectory, const SceneStars& stars) {
     state.settings.ev = 8;
     const ObserverState& o = state.observer;
     const FrameScene scene = scene_with(show, state);
-    const SkyRegion own = own_sky(o.tetrad);
+    const SkyRegion own = own_sky(o);
     for (const SkyRegion sky : {own, own == SkyRegion::kI ? SkyRegion::kIII : SkyRegion::kI})
       if (scene.tracer.lens()->points(sky, {}))
         bytes.add(all_images(StarImageFinder(scene, sky), stars));
@@ -249,7 +249,7 @@ TEST_P(SimdLoops, BendsTheSameLight) {
     StarFrame frame{o.sky_from_tetrad, o.tetrad_from_camera, Aberration(-o.celerity)};
     frame.gain = 1e3, frame.limit = 5.5, frame.inverse_fade = 2;
     const auto lens = lens_of(o, WantedSkies{}, {});
-    const auto points = lens->points(own_sky(o.tetrad), PointTolerance{});
+    const auto points = lens->points(own_sky(o), PointTolerance{});
     if (!points) continue;
     for (const int count : {kStarBatch, kStarBatch - 1, 13, 1})
       compare("observer " + std::to_string(trajectory.index()) + ", " + std::to_string(count),

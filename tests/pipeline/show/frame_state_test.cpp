@@ -214,7 +214,7 @@ TEST_F(FrameStates, AStarThatIsLookedAtStandsWhereItsPrimaryImageIs) {
       const ObserverState& o = f.observer;
       const HoleOptics optics = make_hole_optics(o.r, o.tetrad, {true, true, false});
       const V3d target = std::get<LookAtSky>(s.timeline[0].camera.attitude).target.v;
-      const SkyImage image = image_of(optics.table_of(own_sky(o.tetrad)),
+      const SkyImage image = image_of(optics.table_of(own_sky(o)),
                                       apply_transposed(o.sky_from_tetrad, target), 0, 1e-9);
       expect_close(to_observer(o.celerity, image.direction.v).direction, at_front(f, 60 * kDegree),
                    1e-8);

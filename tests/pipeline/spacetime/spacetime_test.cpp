@@ -38,12 +38,24 @@ TEST(Spacetime, RestAndFreeFallMoveAtTheSameSpeedAgainstEachOther) {
 
 TEST(Spacetime, FlatSpaceSeesTheOwnSkyAlone) {
   for (const Tetrad tetrad : {Tetrad::kRain, Tetrad::kRainOfThree}) {
-    const PerSky<bool> flat = Spacetime().seen_skies(Region::kI, tetrad, kFlatSpace),
-                       inside = Spacetime(Schwarzschild{}).seen_skies(Region::kII, tetrad, 1);
+    const PerSky<bool> flat = Spacetime().seen_skies(Region::kI, tetrad, 0, kFlatSpace),
+                       inside = Spacetime(Schwarzschild{}).seen_skies(Region::kII, tetrad, 0, 1);
     for (const SkyRegion sky : kExteriorSkies) {
-      EXPECT_EQ(flat[sky], sky == own_sky(tetrad));
-      EXPECT_TRUE(inside[sky]);
+      EXPECT_EQ(flat[sky], sky == own_sky(tetrad, 0));
+      EXPECT_EQ(inside[sky], sky != SkyRegion::kNext);
     }
+  }
+}
+
+TEST(Spacetime, EveryOtherUniverseHasTheNextSky) {
+  const Spacetime hole = ChargedHole(1, 0.5L);
+  for (const int universe : {-1, 0, 1, 2, 3}) {
+    const SkyRegion one = own_sky(Tetrad::kRain, universe);
+    EXPECT_EQ(one, universe % 2 == 0 ? SkyRegion::kI : SkyRegion::kNext) << universe;
+    EXPECT_EQ(own_sky(Tetrad::kOutgoing, universe), one);
+    EXPECT_EQ(own_sky(Tetrad::kRainOfThree, universe), SkyRegion::kIII);
+    const PerSky<bool> between = hole.seen_skies(Region::kII, Tetrad::kRain, universe, 1);
+    EXPECT_TRUE(between[one] && between[SkyRegion::kIII]) << universe;
   }
 }
 

@@ -122,7 +122,7 @@ TEST(Wormhole, AnswersAsASpaceWithoutHorizon) {
   EXPECT_FALSE(Wormhole::solar_masses());
   EXPECT_EQ(w.tortoise(1), 1.5);
   EXPECT_GT(w.tortoise(2), 2.5);
-  const PerSky<bool> seen = Wormhole::seen_skies(Region::kIII, Tetrad::kRain, 1);
+  const PerSky<bool> seen = Wormhole::seen_skies(Region::kIII, Tetrad::kRain, 0, 1);
   EXPECT_TRUE(seen[SkyRegion::kI] && seen[SkyRegion::kIII]);
   EXPECT_NE(w.parameters(), (Wormhole{1, Profile::kDngr, 3, 2}).parameters());
   EXPECT_NE((Wormhole{1, Profile::kEllis}).parameters(), w.parameters());

@@ -38,7 +38,7 @@ TEST(FrequencyRange, IsThatOfManyViewRays) {
     std::normal_distribution<double> normal;
     for (const SkyRegion sky : kExteriorSkies) {
       const auto range = frequency_range(state.observer, sky, false);
-      ASSERT_EQ(range.has_value(), sky == own_sky(c.tetrad) || c.r < 2) << c.name;
+      ASSERT_EQ(range.has_value(), sky == own_sky(c.tetrad, 0) || c.r < 2) << c.name;
       if (!range) continue;
       double least = HUGE_VAL, largest = 0;
       for (int k = 0; k < 200'000; ++k) {

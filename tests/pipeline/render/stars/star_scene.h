@@ -25,7 +25,7 @@ class StarScene {
 
   bool has(bool far) const { return table(far) != nullptr; }
   SkyRegion region(bool far) const {
-    return own_sky(far ? mirror_of(optics.tetrad) : optics.tetrad);
+    return own_sky(far ? mirror_of(optics.tetrad) : optics.tetrad, 0);
   }
   const SkyTable* table(bool far) const { return optics.table_of(region(far)); }
   double exposure() const { return exposure_scale(state.settings); }
