@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/program/cli/number_in.h"
 #include "pipeline/show/overlay_kind.h"
 
 namespace domefall {
@@ -30,8 +31,22 @@ inline std::string refuse_empty(const std::string& path) {
   return path.empty() ? std::string("got an empty path") : std::string();
 }
 
+// Add an option, or the argument of a verb, whose value is a file or a folder, or several.
+template <class Value>
+CLI::Option* add_file(CLI::App& verb, const char* name, Value& file, const std::string& help) {
+  return verb.add_option(name, file, help)->type_name(kFileType);
+}
+template <class Value>
+CLI::Option* add_folder(CLI::App& verb, const char* name, Value& folder, const std::string& help) {
+  return verb.add_option(name, folder, help)->type_name(kFolderType);
+}
+
 inline CLI::Option* add_show(CLI::App& verb, std::string& file) {
-  return verb.add_option(kShowName, file, "show file (YAML)")->type_name(kFileType);
+  return add_file(verb, kShowName, file, "show file (YAML)");
+}
+
+inline void add_threads(CLI::App& verb, int& threads) {
+  verb.add_option("--threads", threads, "0: one per processor")->check(number_in(0, 1024));
 }
 
 // What the help of the verbs says of it.

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "pipeline/program/cli/json_number.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
@@ -22,7 +21,7 @@ Json json_of_picture(const Orientation& o) {
   return {{"frame", o.frame == SkyFrame::kGalactic ? "galactic" : "equatorial"},
           {"longitude_grows", o.longitude_right ? "right" : "left"},
           {"up", o.south_up ? "south" : "north"},
-          {"centre_deg", json_number(o.centre_deg)}};
+          {"centre_deg", o.centre_deg}};
 }
 
 constexpr std::size_t kOthersShown = 4;
@@ -58,18 +57,17 @@ std::string picture_page(const std::string& taken, bool json) {
 
 std::string sky_json(const SkyFile& file, bool verified) {
   const SkyOrigin& origin = file.origin();
-  const Json json = {
-      {"kind", is_thermal(file) ? "thermal" : "colour"},
-      {"unit", json_number(file.map().unit())},
-      {"unit_name", unit_name(file)},
-      {"face_size", file.map().levels()[0].size},
-      {"levels", file.map().levels().size()},
-      {"bytes", file.map().bytes()},
-      {"picture", origin.panorama ? json_of_picture(*origin.panorama) : Json()},
-      {"fainter_than", origin.fainter_than ? json_number(*origin.fainter_than) : Json()},
-      {"text", origin.text},
-      {"digest", file.digest()},
-      {"verified", verified ? Json(true) : Json()}};
+  const Json json = {{"kind", is_thermal(file) ? "thermal" : "colour"},
+                     {"unit", file.map().unit()},
+                     {"unit_name", unit_name(file)},
+                     {"face_size", file.map().levels()[0].size},
+                     {"levels", file.map().levels().size()},
+                     {"bytes", file.map().bytes()},
+                     {"picture", origin.panorama ? json_of_picture(*origin.panorama) : Json()},
+                     {"fainter_than", origin.fainter_than ? Json(*origin.fainter_than) : Json()},
+                     {"text", origin.text},
+                     {"digest", file.digest()},
+                     {"verified", verified ? Json(true) : Json()}};
   // The text in another program's file need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -100,8 +100,7 @@ void add_check(CLI::App& app) {
   auto out = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   add_show(*verb, *show)->required();
-  verb->add_option("--out", *out, "folder that the frames are to go to; default out/NAME")
-      ->type_name(kFolderType);
+  add_folder(*verb, "--out", *out, "folder that the frames are to go to; default out/NAME");
   verb->add_flag("--json", *json, "the same facts as JSON, for other programs");
   verb->callback([show, out, json] { check(*show, *out, *json); });
 }

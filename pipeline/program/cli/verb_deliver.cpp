@@ -7,7 +7,6 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/base/utf8.h"
 #include "pipeline/image/frame_list.h"
-#include "pipeline/program/cli/number_in.h"
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/output_file.h"
 #include "pipeline/program/cli/verbs.h"
@@ -121,9 +120,8 @@ void add_deliver(CLI::App& app) {
                                   "Make the folder that festivals and domes ask for, or check one");
   auto o = std::make_shared<DeliverOptions>();
   auto* show = add_show(*verb, o->show);
-  verb->add_option("--from", o->from, "folder of the rendered frames; default out/NAME")
-      ->type_name(kFolderType);
-  auto* out = verb->add_option("--out", o->out, "folder to make")->type_name(kFolderType);
+  add_folder(*verb, "--from", o->from, "folder of the rendered frames; default out/NAME");
+  auto* out = add_folder(*verb, "--out", o->out, "folder to make");
   verb->add_option("--size", o->size, "of the frames, where it is not the show's")
       ->type_name("SIZE");
   verb->add_option("--depth", o->bits,
@@ -131,13 +129,12 @@ void add_deliver(CLI::App& app) {
       ->check(CLI::IsMember({8, 16}));
   verb->add_option("--name", o->name, "such as my_show_#####; default the show's file name")
       ->type_name("NAME");
-  verb->add_option("--audio", o->sounds, kAudioHelp)->type_name(kFileType);
-  verb->add_option("--subtitles", o->subtitles, "SubRip files (.srt)")->type_name(kFileType);
+  add_file(*verb, "--audio", o->sounds, kAudioHelp);
+  add_file(*verb, "--subtitles", o->subtitles, "SubRip files (.srt)");
   add_overlay_option(*verb, o->overlays);
   verb->add_flag("--leader", o->leader, "slate and countdown, in a folder of their own");
-  verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
-  verb->add_option("--check", o->check, "instead: say what a delivered folder lacks")
-      ->type_name(kFolderType)
+  add_threads(*verb, o->threads);
+  add_folder(*verb, "--check", o->check, "instead: say what a delivered folder lacks")
       ->excludes(show)
       ->excludes(out);
   verb->callback([o] { deliver(*o); });
@@ -147,16 +144,13 @@ void add_sheet(CLI::App& app) {
   auto* verb = app.add_subcommand("sheet", "A contact sheet of finished frames");
   auto o = std::make_shared<SheetOptions>();
   add_show(*verb, o->show)->required();
-  verb->add_option("--from", o->from, "folder of the rendered frames; default out/NAME")
-      ->type_name(kFolderType);
-  verb->add_option("--out", o->out, "picture to write, .png, .tif or .jpg")
-      ->type_name(kFileType)
-      ->required();
+  add_folder(*verb, "--from", o->from, "folder of the rendered frames; default out/NAME");
+  add_file(*verb, "--out", o->out, "picture to write, .png, .tif or .jpg")->required();
   verb->add_option("--frames", o->frames, "up to 36: 7, 0-299x10, 100-135; default some of all")
       ->type_name("FRAMES");
   verb->add_option("--size", o->size, "of the frames, where it is not the show's")
       ->type_name("SIZE");
-  verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
+  add_threads(*verb, o->threads);
   verb->callback([o] { make_sheet(*o); });
 }
 

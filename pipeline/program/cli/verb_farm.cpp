@@ -21,11 +21,8 @@ namespace {
 constexpr int kMostRound = 1'000'000;
 
 void add_farm_options(CLI::App& verb, FarmRequest& request) {
-  verb.add_option("DIR", request.folder, "folder of the frames")
-      ->type_name(kFolderType)
-      ->required();
-  verb.add_option("--show", request.show, "show file (YAML); default as planned")
-      ->type_name(kFileType);
+  add_folder(verb, "DIR", request.folder, "folder of the frames")->required();
+  add_file(verb, "--show", request.show, "show file (YAML); default as planned");
   verb.add_option("--plan", request.plan, "ID of DIR/farm/plan_ID.json; default the latest");
   verb.add_option("--frames", request.frames,
                   "such as 7, 0-299 or 3-5,9; default as planned, or all")
@@ -126,9 +123,8 @@ void add_how_options(CLI::App& verb, const std::shared_ptr<SubmitOptions>& o) {
   add_number(verb, "--retries", o->retries, "how often a task is tried again", 0, kMostTries);
   add_number(verb, "--rounds", o->rounds,
              "how often what is missing or bad after all tasks is rendered again", 0, kMostTries);
-  verb.add_option("--program", o->program,
-                  "where the nodes find domefall, or its name in PATH; default this program")
-      ->type_name(kFileType)
+  add_file(verb, "--program", o->program,
+           "where the nodes find domefall, or its name in PATH; default this program")
       ->check(refuse_empty);
   verb.add_flag("--wait", o->wait, "with slurm: end when all frames are good");
   verb.add_flag("--dry-run", o->dry, "only print what would be submitted");
@@ -143,16 +139,13 @@ void add_product_options(CLI::App& verb, const std::shared_ptr<SubmitOptions>& o
   verb.add_option("--movie", products.movie,
                   "then make a movie of this preset, DIR/NAME_PRESET.mp4, .mov or .mkv")
       ->type_name(one_of(presets));
-  verb.add_option("--deliver", products.deliver, "then make this folder for delivery")
-      ->type_name(kFolderType)
+  add_folder(verb, "--deliver", products.deliver, "then make this folder for delivery")
       ->check(refuse_empty);
-  verb.add_option("--audio", products.audio,
-                  std::string("of the movie and of the delivery: ") + kAudioHelp)
-      ->type_name(kFileType);
+  add_file(verb, "--audio", products.audio,
+           std::string("of the movie and of the delivery: ") + kAudioHelp);
   verb.add_option("--depth", products.depth, "of the delivery: 8 or 16 bits a colour")
       ->check(CLI::IsMember({8, 16}));
-  verb.add_option("--subtitles", products.subtitles, "of the delivery: SubRip files (.srt)")
-      ->type_name(kFileType);
+  add_file(verb, "--subtitles", products.subtitles, "of the delivery: SubRip files (.srt)");
   verb.add_flag("--leader", products.leader, "of the delivery: slate and countdown");
 }
 
@@ -169,9 +162,7 @@ void add_submit(CLI::App& farm) {
   verb->add_option("--engine", o->engine, fmt::format("{}", fmt::join(meanings, "; ")))
       ->check(CLI::IsMember(names))
       ->required();
-  verb->add_option("--out", o->out, "folder of the frames; default out/NAME")
-      ->type_name(kFolderType)
-      ->check(refuse_empty);
+  add_folder(*verb, "--out", o->out, "folder of the frames; default out/NAME")->check(refuse_empty);
   verb->add_option("--frames", o->frames, "as of render; default all")->type_name("FRAMES");
   verb->add_option("--size", o->size, "as of render; default the show's")->type_name("SIZE");
   add_overlay_option(*verb, o->overlays);
@@ -182,9 +173,7 @@ void add_submit(CLI::App& farm) {
 }
 
 void add_place_options(CLI::App& verb, WorkOptions& o, const char* round) {
-  verb.add_option("DIR", o.out, "folder of the frames, which has farm/plan_ID.json")
-      ->type_name(kFolderType)
-      ->required();
+  add_folder(verb, "DIR", o.out, "folder of the frames, which has farm/plan_ID.json")->required();
   verb.add_option("--plan", o.plan, "the ID")->required();
   add_number(verb, "--round", o.round, round, 0, kMostRound);
   verb.add_flag("--slurm", o.slurm,

@@ -6,7 +6,6 @@
 #include "pipeline/base/talk.h"
 #include "pipeline/image/frame_file.h"
 #include "pipeline/image/frame_list.h"
-#include "pipeline/program/cli/number_in.h"
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/output_file.h"
 #include "pipeline/program/cli/verbs.h"
@@ -134,20 +133,18 @@ void add_movie(CLI::App& app) {
       ->required();
   verb->add_option("--frames", o->frames, "one range, such as 0-299; default all")
       ->type_name("FRAMES");
-  verb->add_option("--from", o->from,
-                   "take the finished frames of this folder (the --out of render); default: render "
-                   "them and write no files")
-      ->type_name(kFolderType);
+  add_folder(*verb, "--from", o->from,
+             "take the finished frames of this folder (the --out of render); default: render "
+             "them and write no files");
   verb->add_option("--size", o->size,
                    "of the frames, as for render; default the show's, or less where the preset is "
                    "smaller and frames are rendered")
       ->type_name("SIZE");
-  verb->add_option("--audio", o->audio, kAudioHelp)->type_name(kFileType);
-  verb->add_option("--out", o->out, "movie to write; default out/NAME_PRESET.mp4, .mov or .mkv")
-      ->type_name(kFileType)
+  add_file(*verb, "--audio", o->audio, kAudioHelp);
+  add_file(*verb, "--out", o->out, "movie to write; default out/NAME_PRESET.mp4, .mov or .mkv")
       ->check(refuse_empty);
   add_overlay_option(*verb, o->overlays);
-  verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
+  add_threads(*verb, o->threads);
   verb->callback([o] { movie(*o); });
 }
 

@@ -1,5 +1,4 @@
-// The notes on a verb are what the manual says about it beyond its options.  They are written once.
-// --help closes with them, of which the manual pages are made.
+// What --help, and so the manual, says about a verb beyond its options.
 #pragma once
 
 #include <string>
@@ -19,12 +18,6 @@ struct VerbNotes {
 
 // Returns the notes in the order of the verbs.
 const std::vector<VerbNotes>& all_verb_notes();
-
-// A Meaning is a name and what it means, such as an exit code, a variable of the environment or a
-// folder.
-using Meaning = std::pair<std::string_view, std::string_view>;
-const std::vector<Meaning>& exit_code_meanings();
-const std::vector<Meaning>& environment_meanings();
 
 // Returns what --help says after the options.
 std::string help_footer(const VerbNotes& notes);

@@ -156,8 +156,7 @@ void add_preview(CLI::App& app) {
   add_show(*verb, o->show)->required();
   add_frame_choice(*verb, o->choice);
   auto* out =
-      verb->add_option("--out", o->out, "one picture to write, and no viewer: .png, .tif or .jpg")
-          ->type_name(kFileType);
+      add_file(*verb, "--out", o->out, "one picture to write, and no viewer: .png, .tif or .jpg");
   verb->add_option("--size", o->size, "WIDTHxHEIGHT of that picture")
       ->type_name("SIZE")
       ->needs(out)
@@ -171,7 +170,7 @@ void add_preview(CLI::App& app) {
   verb->add_flag("--no-open", o->no_open, "only print the viewer's address");
   verb->add_option("--port", o->port, "of the viewer on 127.0.0.1; 0: any that is free")
       ->check(number_in(0, 65535));
-  verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
+  add_threads(*verb, o->threads);
   verb->callback([o] { preview(*o); });
 }
 

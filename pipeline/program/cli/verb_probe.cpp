@@ -13,7 +13,6 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/base/utf8.h"
 #include "pipeline/program/cli/frame_choice.h"
-#include "pipeline/program/cli/json_number.h"
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/verbs.h"
 #include "pipeline/render/pixel_probe.h"
@@ -114,22 +113,18 @@ void print_text(const Probed& p) {
 Json json_of_star(const StarAtPixel& star) {
   return {{"names", star.names},
           {"sky", name_of(star.sky)},
-          {"ra_deg", json_number(star.ra_deg)},
-          {"dec_deg", json_number(star.dec_deg)},
-          {"v", json_number(star.v)},
-          {"temperature_k", json_number(star.temperature)},
-          {"seen_v", json_number(star.seen_v)},
+          {"ra_deg", star.ra_deg},
+          {"dec_deg", star.dec_deg},
+          {"v", star.v},
+          {"temperature_k", star.temperature},
+          {"seen_v", star.seen_v},
           {"order", star.order},
-          {"pixel", {json_number(star.at.i), json_number(star.at.j)}}};
+          {"pixel", {star.at.i, star.at.j}}};
 }
 
 Json json_of_body(const BodyAtPixel& body) {
-  return {{"name", body.name},
-          {"r", json_number(body.r)},
-          {"one_plus_z", json_number(1 / body.frequency_ratio)},
-          {"seen_v", json_number(body.seen_v)},
-          {"order", body.order},
-          {"pixel", {json_number(body.at.i), json_number(body.at.j)}}};
+  return {{"name", body.name},     {"r", body.r},         {"one_plus_z", 1 / body.frequency_ratio},
+          {"seen_v", body.seen_v}, {"order", body.order}, {"pixel", {body.at.i, body.at.j}}};
 }
 
 bool has_titles(const Show& show) {
@@ -139,12 +134,12 @@ bool has_titles(const Show& show) {
 }
 
 Json json_of_disc(const DiscAtPixel& disc) {
-  return {{"r", json_number(disc.r)},
-          {"azimuth_deg", json_number(disc.azimuth_deg)},
-          {"one_plus_z", json_number(1 / disc.frequency_ratio)},
-          {"temperature_k", json_number(disc.temperature)},
+  return {{"r", disc.r},
+          {"azimuth_deg", disc.azimuth_deg},
+          {"one_plus_z", 1 / disc.frequency_ratio},
+          {"temperature_k", disc.temperature},
           {"order", disc.order},
-          {"covered", json_number(disc.covered)}};
+          {"covered", disc.covered}};
 }
 
 // Light from the singularity has no redshift, no order and no amplification.
@@ -154,13 +149,12 @@ void add_shift(const Probed& p, Json& json) {
   for (const char* key : kKeys) json[key] = nullptr;
   if (p.from_singularity()) return;
   const double g = p.ray.frequency_ratio, colour = colour_ratio(p.show.effects, g);
-  json["one_plus_z"] = json_number(1 / g);
-  json["temperature_ratio"] = json_number(colour);
-  json["intensity_ratio"] =
-      json_number(surface_brightness_ratio(p.show.effects, g) * std::pow(colour, 4));
-  json["amplification"] = json_number(amplification(p.ray.bundle, p.width()));
+  json["one_plus_z"] = 1 / g;
+  json["temperature_ratio"] = colour;
+  json["intensity_ratio"] = surface_brightness_ratio(p.show.effects, g) * std::pow(colour, 4);
+  json["amplification"] = amplification(p.ray.bundle, p.width());
   if (p.is_straight()) return;
-  json["swept_azimuth_deg"] = json_number(p.ray.swept * kInDegrees);
+  json["swept_azimuth_deg"] = p.ray.swept * kInDegrees;
   json["order"] = static_cast<int>(p.ray.swept / std::numbers::pi);
 }
 
@@ -172,14 +166,14 @@ void print_probe_json(const Probed& p) {
                {"pixel", {p.pixel.i, p.pixel.j}},
                {"inside", p.inside()},
                {"region", is_flat(observer) ? Json() : Json(region_name(observer.region))},
-               {"r", json_number(observer.r)},
+               {"r", observer.r},
                {"sky", p.ray.known ? Json(name_of(p.ray.sky)) : Json()},
-               {"direction", {json_number(to.x), json_number(to.y), json_number(to.z)}},
-               {"ra_deg", json_number(at.ra_deg)},
-               {"dec_deg", json_number(at.dec_deg)},
-               {"compression_towards_hole", json_number(p.ray.scale_along)},
-               {"compression_across", json_number(p.ray.scale_across)},
-               {"to_edge_deg", json_number(p.ray.to_edge * kInDegrees)}};
+               {"direction", {to.x, to.y, to.z}},
+               {"ra_deg", at.ra_deg},
+               {"dec_deg", at.dec_deg},
+               {"compression_towards_hole", p.ray.scale_along},
+               {"compression_across", p.ray.scale_across},
+               {"to_edge_deg", p.ray.to_edge * kInDegrees}};
   add_shift(p, json);
   json["stars"] = Json::array();
   for (const StarAtPixel& star : p.stars) json["stars"].push_back(json_of_star(star));
@@ -190,7 +184,7 @@ void print_probe_json(const Probed& p) {
   if (p.show.disc) {
     json["disc"] = Json::array();
     for (const DiscAtPixel& disc : p.disc) json["disc"].push_back(json_of_disc(disc));
-    json["left_behind_disc"] = json_number(p.left_of_sky);
+    json["left_behind_disc"] = p.left_of_sky;
   }
   if (has_titles(p.show)) json["titles"] = p.titles;
   // A catalogue's names need not be UTF-8.

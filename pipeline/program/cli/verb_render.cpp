@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 
 #include "pipeline/image/frame_list.h"
-#include "pipeline/program/cli/number_in.h"
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/verbs.h"
 #include "pipeline/render/frames/frame_folder.h"
@@ -41,8 +40,7 @@ void add_frame_options(CLI::App& verb, const std::shared_ptr<RenderOptions>& o) 
   verb.add_option("--size", o->size,
                   "1k, 2k, 4k, 8k or pixels for a dome, WIDTHxHEIGHT for a flat picture")
       ->type_name("SIZE");
-  verb.add_option("--out", o->out, "folder for linear/ and graded/ frames; default out/NAME")
-      ->type_name(kFolderType)
+  add_folder(verb, "--out", o->out, "folder for linear/ and graded/ frames; default out/NAME")
       ->check(refuse_empty);
   add_overlay_option(verb, o->overlays);
   verb.add_flag("--replace", o->replace, "replace frames of another size, show or kind");
@@ -55,7 +53,7 @@ void add_render(CLI::App& app) {
       app.add_subcommand("render", "Render frames: scene-linear EXR and graded PNG, TIFF or JPEG");
   auto o = std::make_shared<RenderOptions>();
   add_frame_options(*verb, o);
-  verb->add_option("--threads", o->threads, "0: one per processor")->check(number_in(0, 1024));
+  add_threads(*verb, o->threads);
   auto* explain =
       verb->add_flag("--explain", o->explain, "print each frame's plan and what its stages cost");
   verb->add_flag("--lens-map", o->lens_map,

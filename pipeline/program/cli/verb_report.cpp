@@ -62,9 +62,8 @@ void add_report(CLI::App& app) {
     bool quick = false, figures = false;
   };
   auto options = std::make_shared<Options>();
-  verb->add_option("--out", options->out,
-                   "the folder for accuracy.md, costs.md, CSV files and plots/")
-      ->type_name(kFolderType)
+  add_folder(*verb, "--out", options->out,
+             "the folder for accuracy.md, costs.md, CSV files and plots/")
       ->required();
   verb->add_flag("--quick", options->quick, "few rays and frames: seconds instead of minutes");
   verb->add_flag("--figures", options->figures,

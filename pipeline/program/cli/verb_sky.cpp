@@ -85,8 +85,8 @@ void add_build(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand(
       "build", "Make a starless Milky Way of a catalogue's faint stars, with their true colours");
   auto o = std::make_shared<BuildOptions>();
-  verb->add_option("--stars", o->stars, "the catalogue")->type_name(kFileType)->required();
-  verb->add_option("--out", o->out, "the .sky file to write")->type_name(kFileType)->required();
+  add_file(*verb, "--stars", o->stars, "the catalogue")->required();
+  add_file(*verb, "--out", o->out, "the .sky file to write")->required();
   add_number(*verb, "--fainter-than", o->fainter_than, "V magnitude of the brightest star taken",
              -30.0, kEveryStar);
   add_number(*verb, "--blur", o->blur_deg, "degrees; standard deviation of a star's light",
@@ -124,7 +124,7 @@ void add_sky_info(CLI::App& sky) {
   CLI::App* verb =
       sky.add_subcommand("info", "Tell what a .sky file holds, or as what a picture is taken");
   auto o = std::make_shared<InfoOptions>();
-  verb->add_option("FILE", o->file, "a .sky file, or a picture")->type_name(kFileType)->required();
+  add_file(*verb, "FILE", o->file, "a .sky file, or a picture")->required();
   verb->add_flag("--verify", o->verify, "read it whole and compare every checksum");
   verb->add_flag("--json", o->json, "the same facts as JSON, for other programs");
   verb->callback([o] { info(*o); });
@@ -154,11 +154,8 @@ void add_check_of_sky(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand(
       "check", "Tell by stars and Milky Way whether a map lies on the sky as it is said to");
   auto file = std::make_shared<std::string>(), stars = std::make_shared<std::string>();
-  verb->add_option("FILE", *file, "a .sky file, or a panorama as shows take it")
-      ->type_name(kFileType)
-      ->required();
-  verb->add_option("--stars", *stars, "a catalogue [that which comes with Domefall]")
-      ->type_name(kFileType);
+  add_file(*verb, "FILE", *file, "a .sky file, or a panorama as shows take it")->required();
+  add_file(*verb, "--stars", *stars, "a catalogue [that which comes with Domefall]");
   verb->callback([file, stars] { check_map(*file, *stars); });
 }
 
@@ -233,11 +230,10 @@ void add_cmb(CLI::App& verb, ImportOptions& o) {
 void add_sky_import(CLI::App& sky) {
   CLI::App* verb = sky.add_subcommand("import", "Make a .sky file of a picture of the whole sky");
   auto o = std::make_shared<ImportOptions>();
-  verb->add_option("IMAGE", o->image,
-                   fmt::format("an {} file, or a HEALPix map in FITS", kPictureFormats))
-      ->type_name(kFileType)
+  add_file(*verb, "IMAGE", o->image,
+           fmt::format("an {} file, or a HEALPix map in FITS", kPictureFormats))
       ->required();
-  verb->add_option("--out", o->out, "the .sky file to write")->type_name(kFileType)->required();
+  add_file(*verb, "--out", o->out, "the .sky file to write")->required();
   verb->add_option("--projection", o->projection, "of the picture; auto: as the file tells")
       ->check(CLI::IsMember({"auto", "equirectangular", "healpix"}))
       ->capture_default_str();
@@ -255,9 +251,8 @@ void add_sky_import(CLI::App& sky) {
   verb->add_option("--column", o->import.column, "of a HEALPix file")->capture_default_str();
   add_cmb(*verb, *o);
   verb->add_option("--licence", o->licence, "a line to keep in the file: credit and terms");
-  verb->add_option("--stars", o->stars,
-                   "the catalogue to check with [that which comes with Domefall]")
-      ->type_name(kFileType);
+  add_file(*verb, "--stars", o->stars,
+           "the catalogue to check with [that which comes with Domefall]");
   verb->callback([o] { import_map(*o); });
 }
 

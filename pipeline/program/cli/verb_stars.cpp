@@ -111,19 +111,14 @@ void add_stars_import(CLI::App& stars) {
   verb->add_option("FORMAT", o->format, "of the catalogue; auto: told by how it begins")
       ->type_name(one_of(format_list()))
       ->required();
-  verb->add_option("INPUT", o->inputs, "files, or the folder they are in")
-      ->type_name(kFileType)
-      ->required();
-  verb->add_option("--out", o->out, "the .stars file to write")->type_name(kFileType)->required();
+  add_file(*verb, "INPUT", o->inputs, "files, or the folder they are in")->required();
+  add_file(*verb, "--out", o->out, "the .stars file to write")->required();
   verb->add_option("--faintest", o->faintest, "leave out fainter stars than this V")
       ->check(number_in(kBrightestV, kFaintestV));
-  verb->add_option("--hipparcos", o->hipparcos,
-                   "V, colours and missing stars from d3-celestial's stars.N.json")
-      ->type_name(kFileType);
-  verb->add_option("--names", o->names, "names by Hipparcos number: d3-celestial's starnames.json")
-      ->type_name(kFileType);
-  verb->add_option("--corrections", o->corrections, "CSV of corrections made by hand")
-      ->type_name(kFileType);
+  add_file(*verb, "--hipparcos", o->hipparcos,
+           "V, colours and missing stars from d3-celestial's stars.N.json");
+  add_file(*verb, "--names", o->names, "names by Hipparcos number: d3-celestial's starnames.json");
+  add_file(*verb, "--corrections", o->corrections, "CSV of corrections made by hand");
   verb->callback([o] { import(*o); });
 }
 
@@ -212,7 +207,7 @@ void add_stars_info(CLI::App& stars) {
   auto* verb = stars.add_subcommand("info", "Say what a .stars catalogue holds");
   auto file = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  verb->add_option("FILE", *file, ".stars file")->type_name(kFileType)->required();
+  add_file(*verb, "FILE", *file, ".stars file")->required();
   verb->add_flag("--json", *json, "the same facts as JSON, for other programs");
   verb->callback([file, json] {
     require_file(*file);

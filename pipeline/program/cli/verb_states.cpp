@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "pipeline/image/frame_list.h"
-#include "pipeline/program/cli/json_number.h"
 #include "pipeline/program/cli/option_types.h"
 #include "pipeline/program/cli/output_file.h"
 #include "pipeline/program/cli/verbs.h"
@@ -34,7 +33,7 @@ std::string csv_text(const StateCell& cell) {
 }
 
 nlohmann::ordered_json json_of_cell(const StateCell& cell) {
-  if (const auto* number = std::get_if<StateNumber>(&cell)) return json_number(number->value);
+  if (const auto* number = std::get_if<StateNumber>(&cell)) return number->value;
   if (const auto* count = std::get_if<int>(&cell)) return *count;
   return std::get<const char*>(cell);
 }
@@ -249,9 +248,8 @@ void add_states(CLI::App& app) {
   auto o = std::make_shared<StatesOptions>();
   add_show(*verb, o->show)->required();
   verb->add_option("--frames", o->frames, "7, 0-299, 0-599x10; default all")->type_name("FRAMES");
-  verb->add_option("--plot", o->plot,
-                   "also draw the whole show as one page (SVG): radius, orbit, Penrose diagram")
-      ->type_name(kFileType);
+  add_file(*verb, "--plot", o->plot,
+           "also draw the whole show as one page (SVG): radius, orbit, Penrose diagram");
   verb->add_option("--format", o->format,
                    "csv (the default); json, an array of objects with all digits; or the camera "
                    "alone as a USD stage or for Nuke: usda, chan")

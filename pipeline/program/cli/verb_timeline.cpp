@@ -39,10 +39,8 @@ void add_timeline(CLI::App& app) {
                    "otio: OpenTimelineIO; edl: markers for Resolve; vtt or srt: titles")
       ->check(CLI::IsMember({"otio", "edl", "vtt", "srt"}))
       ->capture_default_str();
-  verb->add_option("--from", o->from, "folder of the rendered frames; default out/NAME")
-      ->type_name(kFolderType);
-  verb->add_option("--out", o->out, "file to write; default the standard output")
-      ->type_name(kFileType);
+  add_folder(*verb, "--from", o->from, "folder of the rendered frames; default out/NAME");
+  add_file(*verb, "--out", o->out, "file to write; default the standard output");
   verb->callback([o] { write_timeline(*o); });
 }
 

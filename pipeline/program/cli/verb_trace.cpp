@@ -130,10 +130,9 @@ void add_trace(CLI::App& app) {
   auto table = std::make_shared<std::string>();
   auto method = std::make_shared<std::string>("table");
   auto options = std::make_shared<TraceOptions>();
-  verb->add_option("--table", *table,
-                   "CSV with the columns observer, r, delta and perhaps edge, offset, psi; near a "
-                   "charge spin, charge, r, theta, delta, eta and perhaps edge, offset")
-      ->type_name(kFileType)
+  add_file(*verb, "--table", *table,
+           "CSV with the columns observer, r, delta and perhaps edge, offset, psi; near a "
+           "charge spin, charge, r, theta, delta, eta and perhaps edge, offset")
       ->required();
   verb->add_option("--method", *method,
                    "table (what renders frames), exact, or an integrator: rk4 (the paper's own), "

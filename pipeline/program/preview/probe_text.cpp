@@ -11,17 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finite_number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 void add_ray(const ViewRay& ray, double width, Json& json) {
   json["sky"] = name_of(ray.sky);
   if (!ray.known) return;
   const Equatorial at = equatorial({ray.sky_direction});
-  json["ra_deg"] = finite_number(at.ra_deg);
-  json["dec_deg"] = finite_number(at.dec_deg);
+  json["ra_deg"] = at.ra_deg;
+  json["dec_deg"] = at.dec_deg;
   if (ray.sky == SkyRegion::kIV) return;  // the past singularity's light has no redshift
-  json["redshift"] = finite_number(1 / ray.frequency_ratio);
-  json["amplification"] = finite_number(amplification(ray.bundle, width));
+  json["redshift"] = 1 / ray.frequency_ratio;
+  json["amplification"] = amplification(ray.bundle, width);
   json["order"] = static_cast<int>(ray.swept / std::numbers::pi);
 }
 
@@ -41,12 +39,12 @@ Json star_near(const std::vector<NamedImage>& images, const Projection& projecti
     if (distance < least) least = distance, nearest = &image;
   }
   if (!nearest) return {};
-  Json star = {{"name", bare(*nearest)}, {"magnitude", finite_number(nearest->magnitude)}};
+  Json star = {{"name", bare(*nearest)}, {"magnitude", nearest->magnitude}};
   star["images"] = Json::array();
   for (const NamedImage& image : images) {
     if (bare(image) != bare(*nearest)) continue;
     if (const auto pixel = pixel_of(projection, image.direction))
-      star["images"].push_back({finite_number(pixel->i), finite_number(pixel->j)});
+      star["images"].push_back({pixel->i, pixel->j});
   }
   return star;
 }
@@ -60,16 +58,16 @@ std::string LivePictures::probe(const PictureRequest& request, PixelPosition at)
   Json json = {
       {"inside", is_inside(seen.projection, at)},
       {"region", is_flat(seen.observer) ? Json() : Json(region_name(seen.observer.region))},
-      {"r", finite_number(seen.observer.r)}};
+      {"r", seen.observer.r}};
   const PixelProbe pixel(prepared_, seen, at);
   add_ray(pixel.ray(), pixel_angle(seen.projection, at), json);
   for (const DiscAtPixel& disc : pixel.disc())
-    json["disc"].push_back({{"r", finite_number(disc.r)},
-                            {"azimuth_deg", finite_number(disc.azimuth_deg)},
-                            {"redshift", finite_number(1 / disc.frequency_ratio)},
-                            {"temperature_k", finite_number(disc.temperature)},
+    json["disc"].push_back({{"r", disc.r},
+                            {"azimuth_deg", disc.azimuth_deg},
+                            {"redshift", 1 / disc.frequency_ratio},
+                            {"temperature_k", disc.temperature},
                             {"order", disc.order}});
-  json["left"] = finite_number(pixel.left_of_sky());
+  json["left"] = pixel.left_of_sky();
   for (const BodyAtPixel& body : pixel.bodies()) json["bodies"].push_back(body.name);
   for (const std::string& title : pixel.titles()) json["titles"].push_back(title);
   json["star"] = star_near(labels_->images(seen), seen.projection, at);

@@ -59,8 +59,7 @@ TEST(VerbNotes, EachOptionHasAMeaning) {
 
 TEST(VerbNotes, HelpClosesWithTheNotes) {
   const std::string help = describe_command_line()->help();
-  for (const auto& [code, meaning] : exit_code_meanings())
-    EXPECT_THAT(help, HasSubstr("  " + std::string(code) + "\n      " + std::string(meaning)));
+  EXPECT_THAT(help, HasSubstr("\n  75\n      It is worth trying again"));
   EXPECT_THAT(help, HasSubstr("DOMEFALL_ASSETS"));
   EXPECT_THAT(help, Not(HasSubstr("\\")));
 }
