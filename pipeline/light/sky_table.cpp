@@ -1,7 +1,9 @@
 #include "pipeline/light/sky_table.h"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 
 namespace domefall {
 namespace {
@@ -35,9 +37,9 @@ SkyTable::SkyTable(const SkyZone& zone, int bits)
       curve_(
           std::min(kInnermost * zone.least, x_max_ / 4), x_max_,
           [this](double x) { return continued_azimuth(x); }, zone.uneven ? bits + 1 : bits) {
-  if (zone.logarithm > 0)
-    law_ = fit_edge_law(curve_.x_min(), zone.logarithm,
-                        [this](double x) { return continued_azimuth(x); });
+  law_ = fit_edge_law(curve_.x_min(), zone.logarithm, [this](double x) {
+    return zone_.winding ? continued_azimuth(x) - winding(x) : continued_azimuth(x);
+  });
 }
 
 ZoneRay SkyTable::ray_at_distance(double x) const {
@@ -53,26 +55,32 @@ double SkyTable::continued_azimuth(double x) const {
 
 double SkyTable::slope(double x) const {
   constexpr double kStep = 1e-4;  // of x, for a central difference
-  const double by_x =
-      x >= curve_.x_min() ? curve_.at(x).first
-      : law_              ? law_->slope(x)
-             : (beside_edge(x * (1 + kStep)) - beside_edge(x * (1 - kStep))) / (2 * kStep * x);
+  double by_x = 0;
+  if (x >= curve_.x_min())
+    by_x = curve_.at(x).first;
+  else if (zone_.winding)
+    by_x = law_.slope(x) + (winding(x * (1 + kStep)) - winding(x * (1 - kStep))) / (2 * kStep * x);
+  else
+    by_x = law_.slope(x);
   return std::abs(by_x) * (1 + x * x / 4) / 2;
+}
+
+// Solves in the logarithm of x, against which that of the azimuth is nearly straight.
+double SkyTable::distance_beside_edge(double phi) const {
+  if (!zone_.winding) return law_.distance(phi);
+  constexpr double kLeast = -690;  // of ln x; a double has hardly any less
+  const auto excess = [&](double log_x) { return std::log(beside_edge(std::exp(log_x)) / phi); };
+  const double high = std::log(curve_.x_min());
+  if (!(excess(kLeast) > 0)) return std::exp(kLeast);
+  std::uintmax_t steps = 60;
+  const auto [low, up] = boost::math::tools::toms748_solve(
+      excess, kLeast, high, boost::math::tools::eps_tolerance<double>(50), steps);
+  return std::exp((low + up) / 2);
 }
 
 double SkyTable::distance(double phi) const {
   if (phi <= 0) return x_max_;
-  const double x_min = curve_.x_min();
-  if (law_ && phi > law_->azimuth(x_min)) return law_->distance(phi);
-  if (phi > beside_edge(x_min)) {
-    // In the logarithm of x, of which a double has no more than these.
-    double low = std::log(1e-300), high = std::log(x_min);
-    for (int step = 0; step < 80; ++step) {
-      const double middle = (low + high) / 2;
-      (beside_edge(std::exp(middle)) > phi ? low : high) = middle;
-    }
-    return std::exp((low + high) / 2);
-  }
+  if (phi > beside_edge(curve_.x_min())) return distance_beside_edge(phi);
   return std::min(curve_.inverse(phi, x_max_), x_max_);
 }
 

@@ -5,12 +5,12 @@
 //
 // The coordinate is x = 2 tan(|alpha - edge|/4), half the distance to the edge for small angles and
 // smooth up to the far end.  Towards the edge phi = -n ln x + c + x (a + b ln x) + O(x^2 ln x), a
-// law that takes over below the table.  Near a Schwarzschild hole n is 1.
+// law that takes over below the table.  Near a Schwarzschild hole n is 1.  Where light also winds
+// about a cylinder, that part is known in closed form, and the law has the rest.
 #pragma once
 
 #include <cmath>
 #include <functional>
-#include <optional>
 
 #include "pipeline/light/half_angle.h"
 #include "pipeline/light/octave_curve.h"
@@ -76,6 +76,9 @@ struct SkyZone {
   // These are exact, for offsets from the edge in [0, reach].
   std::function<double(double)> azimuth;
   std::function<ZoneRay(double)> ray;
+  // This is the part of the azimuth that grows by a power next to the edge, in closed form, where
+  // there is one.
+  std::function<double(double)> winding = nullptr;
 };
 
 class SkyTable {
@@ -106,12 +109,16 @@ class SkyTable {
 
  private:
   double continued_azimuth(double x) const;
-  double beside_edge(double x) const { return law_ ? law_->azimuth(x) : continued_azimuth(x); }
+  double winding(double x) const { return zone_.winding(4 * std::atan(x / 2)); }
+  double beside_edge(double x) const {
+    return zone_.winding ? law_.azimuth(x) + winding(x) : law_.azimuth(x);
+  }
+  double distance_beside_edge(double phi) const;
 
   SkyZone zone_;
   double x_max_;
   OctaveCurve curve_;
-  std::optional<EdgeLaw> law_;  // without it the exact azimuth is asked
+  EdgeLaw law_;
 };
 
 }  // namespace domefall

@@ -115,6 +115,10 @@ HalfAngle throat_edge(const Wormhole& wormhole, double l) {
   return half_angle(edge.cosine, edge.sine);
 }
 
+double cylinder_azimuth(const Wormhole& wormhole, double l, double offset) {
+  return cylinder_part(wormhole, throat_ray(wormhole, l, offset), l);
+}
+
 double wormhole_azimuth(const Wormhole& wormhole, double l, double offset) {
   if (offset == 0) return std::numeric_limits<double>::infinity();
   const ThroatRay ray = throat_ray(wormhole, l, offset);

@@ -32,4 +32,7 @@ HalfAngle throat_edge(const Wormhole& wormhole, double l);
 // 16 us, ellis 0.5 us.
 double wormhole_azimuth(const Wormhole& wormhole, double l, double offset);
 
+// Returns the part of it that is swept in the cylinder, in closed form: 0 where the ray passes none.
+double cylinder_azimuth(const Wormhole& wormhole, double l, double offset);
+
 }  // namespace domefall

@@ -31,11 +31,12 @@ SkyZone zone_of(const Wormhole& wormhole, double l, double sign) {
   zone.edge = {edge, sign};
   zone.reach = sign > 0 ? std::numbers::pi - edge.angle() : edge.angle();
   zone.least = least_angle(wormhole, edge.angle(), l);
-  // In a cylinder light winds as often as it is long, by no law of logarithms.
-  zone.logarithm = wormhole.half_length() > 0 ? 0 : 1 / std::sqrt(wormhole.curvature_at_throat());
+  zone.logarithm = 1 / std::sqrt(wormhole.curvature_at_throat());
   zone.uneven = true;
   zone.inward = l < 0 ? -1 : 1;
   zone.azimuth = [=](double offset) { return wormhole_azimuth(wormhole, l, sign * offset); };
+  if (wormhole.in_cylinder(l) || (sign < 0 && wormhole.half_length() > 0))
+    zone.winding = [=](double offset) { return cylinder_azimuth(wormhole, l, sign * offset); };
   zone.ray = [=](double offset) {
     const double s = std::sin(offset / 2) * sign, c = std::cos(offset / 2);
     return ZoneRay{{std::max(0.0, edge.sine * c + edge.cosine * s),
