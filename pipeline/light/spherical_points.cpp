@@ -1,5 +1,6 @@
 #include "pipeline/light/spherical_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/base/simd/dispatch.h"
@@ -13,8 +14,12 @@ namespace domefall {
 namespace {
 
 // The curve of each pair of orders has this number of intervals.  From order 2 on all images are
-// near the silhouette's edge, where fewer intervals are as accurate.
-constexpr int kIntervals[] = {512, 64, 64, 64};
+// near the edge, where fewer intervals are as accurate.
+constexpr int kIntervals = 512, kIntervalsBesideEdge = 64;
+// So many pairs have curves at least.  In a long cylinder or a wide throat the images of many more
+// are hardly fainter than the first, and those down to kFaint of its light have curves, too.
+constexpr int kPairs = 4, kMostPairs = 256;
+constexpr double kFaint = 1e-8;
 
 // Returns 1 for even orders, whose images are on the source's side of the hole, and -1 for odd ones.
 double side_of(int order) { return order % 2 == 0 ? 1 : -1; }
@@ -92,8 +97,10 @@ SphericalPoints::SphericalPoints(const SkyTable& table,
                                  const std::optional<PointTolerance>& tolerance)
     : table_(table), psi_(psi_frame(table)) {
   if (!tolerance) return;
-  for (const int intervals : kIntervals)
-    curves_.emplace_back(table, static_cast<int>(curves_.size()), intervals, *tolerance);
+  curves_.emplace_back(table, 0, kIntervals, *tolerance);
+  const double faint = kFaint * std::max(most_light(0), most_light(1));
+  for (int k = 1; k < kPairs || (k < kMostPairs && most_light(2 * k) > faint); ++k)
+    curves_.emplace_back(table, k, kIntervalsBesideEdge, *tolerance);
 }
 
 SkyImage SphericalPoints::image(const V3d& source, int order, double blur) const {

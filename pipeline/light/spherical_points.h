@@ -2,6 +2,7 @@
 // of it.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "pipeline/light/lens_curve.h"
@@ -14,7 +15,7 @@ class SphericalPoints : public SkyPoints {
   // The table must outlive this object.  Without a tolerance no curves are made.
   SphericalPoints(const SkyTable& table, const std::optional<PointTolerance>& tolerance);
 
-  int orders() const override { return 24; }
+  int orders() const override { return std::max(24, orders_in_batches()); }
   bool has_axis() const override { return true; }
   SkyImage image(const V3d& source, int order, double blur) const override;
   std::vector<SkyImage> arc(const V3d& source, int order, double radius,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "pipeline/light/aberration.h"
@@ -159,6 +160,31 @@ TEST(SphericalLens, SeesPointsWhereRaysComeFromThem) {
             << name_of(o) << " order " << order;
       }
     }
+  }
+}
+
+// In a cylinder of ten radii light winds dozens of times, and what is seen beside the edge after
+// many half turns is nearly as large as what is seen after few.
+TEST(SphericalLens, FindsPointsAfterManyHalfTurnsInALongCylinder) {
+  const ObserverState o = in_wormhole({1, Wormhole::Profile::kDngr, 10, 0.014}, 2);
+  const auto lens = LensStore().lens(o, {});
+  const auto points = lens->points(SkyRegion::kI, PointTolerance{});
+  ASSERT_GT(points->orders_in_batches(), 400);
+  EXPECT_EQ(points->orders(), points->orders_in_batches());
+  const V3d source = V3d(0.3, -0.5, 0.4).normalized();
+  PointBatch batch;
+  batch.x[0] = source.x, batch.y[0] = source.y, batch.z[0] = source.z;
+  points->locate(batch, 1);
+  for (const int order : {1, 20, 101, 400}) {
+    PointImageBatch images;
+    points->images(order, batch, 1, images);
+    const SkyImage image = points->image(source, order, 0);
+    const V3d& d = image.direction.v;
+    EXPECT_LT((V3d(images.x[0], images.y[0], images.z[0]) - d).length(), 1e-6) << order;
+    EXPECT_NEAR(images.amplification[0] / image.amplification, 1, 1e-4) << order;
+    const ViewRay ray = lens->ray(d);
+    EXPECT_NEAR(ray.swept, order * std::numbers::pi, std::numbers::pi) << order;
+    EXPECT_LT((ray.sky_direction - source).length(), 1e-8) << order;
   }
 }
 
