@@ -1,5 +1,6 @@
 #include "pipeline/light/hole_optics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -29,6 +30,10 @@ V3d across(const V3d& source, double sine) {
   return sine > 0 ? V3d(0, source.y, source.z) / sine : V3d(0, 1, 0);
 }
 
+// Near a fold phi = phi_0 + c (alpha - alpha_0)^2/2, a source of radius rho is no narrower than
+// sqrt(2 rho/c), and its slope is no less than sqrt(2 rho c).
+double least_slope(double curvature, double blur) { return std::sqrt(2 * blur * curvature); }
+
 // alpha counts from -R, or from R where inward is -1.
 TetradDirection tetrad_direction(const ZoneRay& ray, double inward, const V3d& e) {
   return {V3d(-inward * ray.cosine(), 0, 0) + e * ray.sine()};
@@ -37,9 +42,15 @@ TetradDirection tetrad_direction(const ZoneRay& ray, double inward, const V3d& e
 }  // namespace
 
 const SkyTable* HoleOptics::table_of(SkyRegion sky) const {
+  const auto tables = tables_of(sky);
+  return tables.empty() ? nullptr : tables.front();
+}
+
+std::vector<const SkyTable*> HoleOptics::tables_of(SkyRegion sky) const {
+  std::vector<const SkyTable*> tables;
   for (const SkyPart& part : parts)
-    if (part.sky == sky && part.table) return &*part.table;
-  return nullptr;
+    if (part.sky == sky && part.table) tables.push_back(&*part.table);
+  return tables;
 }
 
 HoleOptics make_hole_optics(const Radius& at, Tetrad tetrad, WantedSkies wanted) {
@@ -96,12 +107,14 @@ SkyImage image_of(const SkyTable* table, const V3d& source, int order, double ax
   const Order o = order_of(std::atan2(sine, source.x), order);
   const double x = table->distance(o.phi);
   const ZoneRay ray = table->ray_at_distance(x);
-  SkyImage image;
+  SkyImage image{};
   image.direction = tetrad_direction(ray, table->zone().inward, across(source, sine) * o.side);
   image.frequency_ratio = 1 / ray.one_plus_z;
+  if (o.phi > table->most_azimuth()) return image;
   // At the far end, where sin(alpha) and sin(phi) vanish together, their ratio is 1/slope.
-  const double slope = table->slope(x);
-  const bool far_end = order == 0 && o.phi < 1e-6;
+  const double slope = std::hypot(table->slope(x), least_slope(table->curvature(), axis_blur));
+  const double on_axis = 1e-6 * std::min(1.0, table->most_azimuth());
+  const bool far_end = order == 0 && o.phi < on_axis;
   image.amplification =
       far_end ? 1 / (slope * slope) : ray.sine() / (std::hypot(sine, axis_blur) * slope);
   return image;
@@ -112,10 +125,7 @@ WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int or
   const double sine = sine_of(source);
   const Order o = order_of(std::atan2(sine, source.x), order);
   const WhiteHoleTable::Branches branches = table.rays_of(o.phi);
-  // Near a fold phi = phi_0 + c (alpha - alpha_0)^2/2, a source of radius rho is no narrower than
-  // sqrt(2 rho/c), and its slope is no less than sqrt(2 rho c).
-  const double least_slope =
-      table.turn() ? std::sqrt(2 * axis_blur * std::abs(table.turn()->curvature)) : 0;
+  const double least = table.turn() ? least_slope(std::abs(table.turn()->curvature), axis_blur) : 0;
   WhiteHoleImages images;
   images.count = branches.count;
   for (int k = 0; k < images.count; ++k) {
@@ -127,8 +137,7 @@ WhiteHoleImages images_of(const WhiteHoleTable& table, const V3d& source, int or
     image.frequency_ratio = 1;
     const double slope = table.slope(table.place_of(ray));
     image.amplification =
-        sin_alpha > 0 ? sin_alpha / (std::hypot(sine, axis_blur) * std::hypot(slope, least_slope))
-                      : 0;
+        sin_alpha > 0 ? sin_alpha / (std::hypot(sine, axis_blur) * std::hypot(slope, least)) : 0;
   }
   return images;
 }

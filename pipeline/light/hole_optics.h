@@ -29,12 +29,14 @@ struct HoleOptics {
   ViewEnergy energy;                             // that of every zone
   double inward = 1;                             // that of every zone
   // These are at most two zones, whether their skies are wanted or not, that of the tetrad's own sky
-  // first.  Beyond both is light of the white hole, or none.
+  // first.  Both may be of one sky.  Beyond both is light of the white hole, or none.
   std::vector<SkyPart> parts;
   std::optional<WhiteHoleTable> white_hole;
   std::optional<EmissionTimeTable> emission_times;
 
-  // Returns the first table of a sky, or null where it is not seen or no table was made.
+  // Returns the tables of a sky, which are none where it is not seen or no table was made.
+  std::vector<const SkyTable*> tables_of(SkyRegion sky) const;
+  // Returns the first one, or null.
   const SkyTable* table_of(SkyRegion sky) const;
 };
 
@@ -55,7 +57,8 @@ std::size_t node_count(const HoleOptics& optics);
 // Phi.  k = 0 is the primary image, and those of odd k lie on the opposite side of the hole.  The
 // swept azimuth is phi* + k pi for even k and (k+1) pi - phi* for odd k.  `axis_blur` (radians, >
 // 0) is the angular radius of the source, which bounds the amplification where the source, the hole
-// and the observer are in line.  In flat space there is k = 0 only.
+// and the observer are in line, and on a level edge.  Where no light sweeps so much, the
+// amplification is 0.  In flat space there is k = 0 only.
 SkyImage image_of(const SkyTable* table, const V3d& source, int order, double axis_blur);
 
 // WhiteHoleImages are the images of the same order of a point of the past singularity, of which

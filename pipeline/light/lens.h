@@ -45,7 +45,8 @@ struct ViewRay {
   RayBundle bundle;
   double swept = 0;  // by the light about the hole, radians; 0 for straight light
   // The angle in the view to the nearest edge of a sky (radians) is right to first order in it, and
-  // infinite without an edge.
+  // infinite without an edge.  A rim along which images of a sky are crowded counts as an edge, and
+  // is no nearer than the rim is wide.
   double to_edge = HUGE_VAL;
 
   // The ellipse on the sky that a small circle of view becomes has these axes per angle of view.
@@ -91,6 +92,7 @@ using ViewCurve = std::variant<ViewCircle, std::vector<V3d>>;
 struct SkyBorder {
   ViewCurve curve;
   bool sky_within;  // whether the sky lies where n.axis > cosine, or within the polygon
+  SkyRegion sky;
 };
 
 // A SkySample is a piece of a sky as it is seen in the frame of a lens.
@@ -149,9 +151,9 @@ class Lens {
     return nullptr;
   }
 
-  // A sky may be crowded around the direction in which its far end is seen.  Nothing is returned if
-  // it is not seen or not known, or is never crowded.
-  virtual std::optional<V3d> far_end(SkyRegion) const { return std::nullopt; }
+  // A sky may be crowded around the directions in which it is seen farthest from its borders.
+  // Nothing is returned if it is not seen or not known, or is never crowded.
+  virtual std::vector<V3d> far_ends(SkyRegion) const { return {}; }
   // Divides such a sky evenly in the angle from its border and in the angle about the far end.
   virtual std::vector<SkySample> divided(SkyRegion, int, int) const { return {}; }
   // Returns directions around which rays change too fast to be interpolated from a coarse grid,

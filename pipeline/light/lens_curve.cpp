@@ -21,7 +21,8 @@ constexpr double kErrorThere = 4.0 / 9;
 constexpr double kBetween = 1.001;
 constexpr double kUnbounded = 1e37;  // replaces any larger bound; it is within a float
 
-// An Exact is the image of a source whose light has swept phi, found by inverting the table.
+// An Exact is the image of a source whose light has swept phi, found by inverting the table.  Where
+// no light sweeps so much, it has no light and lies on the edge.
 struct Exact {
   double psi, slope;    // as LensCurve::View has them
   double sine, energy;  // sin(psi), and 1 + z of the free-fall observer
@@ -36,8 +37,9 @@ Exact exact(const SkyTable& table, double phi) {
   const double x = table.distance(phi);
   const ZoneRay ray = table.ray_at_distance(x);
   const double from_edge = 4 * std::atan(x / 2);
-  return {4 * std::atan(table.x_max() / 2) - from_edge, 1 / table.slope(x), ray.sine(),
-          ray.one_plus_z, from_edge};
+  const double slope = phi < table.most_azimuth() ? 1 / table.slope(x) : 0;
+  return {4 * std::atan(table.x_max() / 2) - from_edge, slope, ray.sine(), ray.one_plus_z,
+          from_edge};
 }
 
 // Returns an upper bound of light() on the interval between a and c, in which b lies.  No sine
@@ -52,16 +54,19 @@ double most_light(const Exact& a, const Exact& b, const Exact& c) {
 
 double light_of(const LensCurve::View& view, const PsiFrame& frame) {
   const double s = std::sin(view.psi / 2), c = std::cos(view.psi / 2);
+  const ViewEnergy& energy = frame.energy;
   return Exact{view.psi, view.slope, 2 * s * c,
-               std::abs(frame.sine2 * s * s + frame.cosine2 * c * c), 0}
+               energy.one_plus_z(energy.sine2 * s * s + energy.cosine2 * c * c), 0}
       .light();
 }
 
 }  // namespace
 
 // From this order to the edge the slope falls, and the energy and the angle lie between their
-// values at the two ends.
+// values at the two ends.  At a level edge there is no bound.
 double most_light_from(const SkyTable& table, int order) {
+  if (std::isfinite(table.most_azimuth()))
+    return order * pi < table.most_azimuth() ? kUnbounded : 0;
   const Exact from = exact(table, order * pi);
   const ZoneRay edge = table.ray_at_distance(0);
   const Exact to{4 * std::atan(table.x_max() / 2), 0, edge.sine(), edge.one_plus_z, 0};
@@ -71,8 +76,9 @@ double most_light_from(const SkyTable& table, int order) {
 // Beyond an edge psi is pi - alpha, and before one it is alpha.
 PsiFrame psi_frame(const SkyTable& table) {
   const SkyZone& zone = table.zone();
-  if (zone.edge.sign > 0) return {zone.energy.cosine2, zone.energy.sine2, zone.inward};
-  return {zone.energy.sine2, zone.energy.cosine2, -zone.inward};
+  const ViewEnergy& e = zone.energy;
+  if (zone.edge.sign > 0) return {{e.cosine2, e.sine2, e.least}, zone.inward};
+  return {e, -zone.inward};
 }
 
 LensCurve::View LensCurve::operator()(double v) const {
@@ -107,9 +113,12 @@ LensCurve::LensCurve(const SkyTable& table, int pair, int intervals,
     c[2] = 3 * rise - 2 * d0 - d1;
     c[3] = d0 + d1 - 2 * rise;
     const View found = (*this)(v + kTested * width);
-    const double light = tested.light(), most = most_light(low, tested, high);
-    const bool good = std::abs(found.psi - tested.psi) < kErrorThere * tolerance.position &&
-                      std::abs(light_of(found, frame) - light) < tolerance.flux * light;
+    const double light = tested.light();
+    const bool lit = high.slope > 0, level = lit && !(low.slope > 0);
+    const double most = !lit ? 0 : level ? kUnbounded : most_light(low, tested, high);
+    const bool good =
+        !lit || (!level && std::abs(found.psi - tested.psi) < kErrorThere * tolerance.position &&
+                 std::abs(light_of(found, frame) - light) < tolerance.flux * light);
     bound_[static_cast<std::size_t>(i)] =
         static_cast<float>(good ? std::min(most, kUnbounded) : -1);
     double& largest = largest_[v + width / 2 > 0 ? 0 : 1];

@@ -32,7 +32,8 @@ class LensCurve {
     return i < intervals_ ? i : intervals_ - 1;
   }
   // Returns for each interval an upper bound of amplification * |sin phi_star| * (frequency
-  // ratio)^4 in the frame of the tetrad, or a negative number if the interval is not for use.
+  // ratio)^4 in the frame of the tetrad, or a negative number if the interval is not for use, as
+  // next to a level edge.  It is 0 where no light sweeps so much.
   const float* bounds() const { return bound_.data(); }
   // Returns the largest bound of the even or the odd order.  Intervals that are not for use count
   // with the bounds that they would have.
@@ -87,8 +88,8 @@ double most_light_from(const SkyTable& table, int order);
 // A PsiFrame takes psi to 1 + z for the free-fall observer and to a direction's component along R:
 //     1 + z = |sine2 sin^2(psi/2) + cosine2 cos^2(psi/2)|,  component = outward cos(psi).
 struct PsiFrame {
-  double sine2, cosine2;
-  double outward;  // 1 or -1
+  ViewEnergy energy;  // of psi in place of alpha
+  double outward;     // 1 or -1
 };
 PsiFrame psi_frame(const SkyTable& table);
 

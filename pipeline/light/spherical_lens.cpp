@@ -8,6 +8,11 @@
 #include "pipeline/light/spherical_points.h"
 
 namespace domefall {
+namespace {
+
+bool is_from_core(const SkyZone& zone) { return zone.end && zone.end->core; }
+
+}  // namespace
 
 SphericalLens::SphericalLens(std::shared_ptr<const HoleOptics> optics, const M33d& sky_from_tetrad)
     : optics_(std::move(optics)), sky_from_tetrad_(sky_from_tetrad) {}
@@ -18,10 +23,18 @@ ViewCircle SphericalLens::circle_at(const HalfAngle& alpha) const {
           2 * alpha.sine * alpha.cosine};
 }
 
+// A sky that lies on both sides of one edge does not end there.
 std::vector<SkyBorder> SphericalLens::borders() const {
   std::vector<SkyBorder> borders;
-  for (const SkyPart& part : optics_->parts)
-    borders.push_back({circle_at(part.zone.edge.half), part.zone.edge.sign < 0});
+  const std::vector<SkyPart>& parts = optics_->parts;
+  const auto same_edge = [](const SkyEdge& a, const SkyEdge& b) {
+    return a.half.sine == b.half.sine && a.half.cosine == b.half.cosine;
+  };
+  if (parts.size() == 2 && parts[0].sky == parts[1].sky &&
+      same_edge(parts[0].zone.edge, parts[1].zone.edge))
+    return borders;
+  for (const SkyPart& part : parts)
+    borders.push_back({circle_at(part.zone.edge.half), part.zone.edge.sign < 0, part.sky});
   return borders;
 }
 
@@ -29,7 +42,7 @@ std::vector<SkyBorder> SphericalLens::borders() const {
 std::vector<ViewCurve> SphericalLens::einstein_rings() const {
   std::vector<ViewCurve> rings;
   for (const SkyPart& part : optics_->parts)
-    if (part.table)
+    if (part.table && part.table->most_azimuth() > std::numbers::pi)
       rings.emplace_back(
           circle_at(part.table->ray_at_distance(part.table->distance(std::numbers::pi)).half));
   return rings;
@@ -37,29 +50,40 @@ std::vector<ViewCurve> SphericalLens::einstein_rings() const {
 
 std::unique_ptr<const SkyPoints> SphericalLens::points(
     SkyRegion sky, const std::optional<PointTolerance>& tolerance) const {
-  const SkyTable* table = optics_->table_of(sky);
-  return table ? std::make_unique<SphericalPoints>(*table, tolerance) : nullptr;
+  auto tables = optics_->tables_of(sky);
+  return tables.empty() ? nullptr : std::make_unique<SphericalPoints>(std::move(tables), tolerance);
 }
 
 V3d SphericalLens::primary_image(const V3d& source) const {
   return domefall::primary_image(*optics_, source).v;
 }
 
-// The far end of a zone lies on the axis.
-std::optional<V3d> SphericalLens::far_end(SkyRegion sky) const {
-  for (const SkyPart& part : optics_->parts)
-    if (part.sky == sky && part.table) return V3d(part.zone.edge.sign * optics_->inward, 0, 0);
-  return std::nullopt;
+// The far end of a zone lies on the axis.  There light from the core is spread without bound however
+// large the zone is, so that its middle stands for it.
+std::vector<V3d> SphericalLens::far_ends(SkyRegion sky) const {
+  std::vector<V3d> ends;
+  for (const SkyPart& part : optics_->parts) {
+    if (part.sky != sky || !part.table) continue;
+    const double off = is_from_core(part.zone) ? part.zone.reach / 2 : 0;
+    ends.emplace_back(part.zone.edge.sign * optics_->inward * std::cos(off), std::sin(off), 0);
+  }
+  return ends;
 }
 
 // The samples are evenly spaced in the ray's angle from the edge, which is 4 atan(x/2) for the
 // table's coordinate x, and in the angle about the axis.
 std::vector<SkySample> SphericalLens::divided(SkyRegion sky, int along, int around) const {
-  const SkyTable& table = *optics_->table_of(sky);
+  std::vector<SkySample> samples;
+  for (const SkyTable* table : optics_->tables_of(sky)) divide(*table, along, around, samples);
+  return samples;
+}
+
+void SphericalLens::divide(const SkyTable& table, int along, int around,
+                           std::vector<SkySample>& samples) const {
   const double d_alpha = 4 * std::atan(table.x_max() / 2) / along;
   const double d_psi = 2 * std::numbers::pi / around;
-  std::vector<SkySample> samples;
-  samples.reserve(static_cast<std::size_t>(along) * static_cast<std::size_t>(around));
+  samples.reserve(samples.size() +
+                  static_cast<std::size_t>(along) * static_cast<std::size_t>(around));
   for (int i = 0; i < along; ++i) {
     const double x = 2 * std::tan((i + 0.5) * d_alpha / 4);
     const ZoneRay ray = table.ray_at_distance(x);
@@ -77,12 +101,15 @@ std::vector<SkySample> SphericalLens::divided(SkyRegion sky, int along, int arou
       samples.push_back(sample);
     }
   }
-  return samples;
 }
 
 std::vector<V3d> SphericalLens::special_directions() const {
-  if (!optics_->white_hole) return {};
-  return {V3d(1, 0, 0), V3d(-1, 0, 0)};
+  std::vector<V3d> special;
+  if (optics_->white_hole) special = {V3d(1, 0, 0), V3d(-1, 0, 0)};
+  for (const SkyPart& part : optics_->parts)
+    if (part.table && is_from_core(part.zone))
+      special.emplace_back(part.zone.edge.sign * optics_->inward, 0, 0);
+  return special;
 }
 
 ViewRay SphericalLens::ray(const V3d& d) const {
@@ -96,8 +123,10 @@ ViewRay SphericalLens::ray(const V3d& d) const {
   // A ray on a sky's side of its edge comes from that sky.  A ray that no sky has comes from the
   // past singularity.  An edge counts unless both of its sides are dark.
   for (const SkyPart& part : optics_->parts) {
-    const double away = part.zone.edge.distance(half.sine, half.cosine);
-    if (part.table || optics_->white_hole) ray.to_edge = std::min(ray.to_edge, 2 * std::abs(away));
+    const SkyEdge& edge = part.zone.edge;
+    const double away = edge.distance(half.sine, half.cosine);
+    if (part.table || optics_->white_hole)
+      ray.to_edge = std::min(ray.to_edge, std::max(2 * std::abs(away), edge.width));
     if (!(away > 0) || ray.sky != SkyRegion::kIV) continue;
     ray.sky = part.sky;
     side = inward * part.zone.edge.sign;  // phi falls from the edge on
@@ -123,8 +152,8 @@ ViewRay SphericalLens::ray(const V3d& d) const {
     ray.bundle.patch = AxisPatch{half.angle(), phi, slope};
     ray.swept = phi;
     const ViewEnergy& energy = optics_->energy;
-    ray.frequency_ratio = 1 / std::abs(energy.sine2 * half.sine * half.sine +
-                                       energy.cosine2 * half.cosine * half.cosine);
+    ray.frequency_ratio = 1 / energy.one_plus_z(energy.sine2 * half.sine * half.sine +
+                                                energy.cosine2 * half.cosine * half.cosine);
   }
   ray.known = true;
   // The light started at cos(phi) R + sin(phi) e, with e the part of d across R made a unit vector.

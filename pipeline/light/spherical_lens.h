@@ -20,9 +20,10 @@ class SphericalLens : public Lens {
   std::unique_ptr<const SkyPoints> points(
       SkyRegion sky, const std::optional<PointTolerance>& tolerance) const override;
   V3d primary_image(const V3d& source) const override;
-  std::optional<V3d> far_end(SkyRegion sky) const override;
+  std::vector<V3d> far_ends(SkyRegion sky) const override;
   std::vector<SkySample> divided(SkyRegion sky, int along, int around) const override;
-  // If the singularity is seen, its azimuth starts like a cube root about the axis.
+  // About the axis, azimuths of the singularity's light start like a cube root, and those of light
+  // that turned at the core like a root.
   std::vector<V3d> special_directions() const override;
 
  protected:
@@ -30,6 +31,7 @@ class SphericalLens : public Lens {
 
  private:
   ViewCircle circle_at(const HalfAngle& alpha) const;
+  void divide(const SkyTable& table, int along, int around, std::vector<SkySample>& samples) const;
 
   std::shared_ptr<const HoleOptics> optics_;
   M33d sky_from_tetrad_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipeline/base/simd/dispatch.h"
 #include "pipeline/base/simd/transpose_quads.h"
@@ -80,7 +81,7 @@ Dispatched<look_up_loop> look_up;
   for (int k = 0; k < count; ++k) {
     const SineCosine half = sin_cos(0.5 * psis[k]);
     const double s2 = half.sine * half.sine, c2 = half.cosine * half.cosine;
-    const double energy = std::abs(psi.sine2 * s2 + psi.cosine2 * c2);
+    const double energy = psi.energy.one_plus_z(psi.energy.sine2 * s2 + psi.energy.cosine2 * c2);
     const double across = 2 * half.sine * half.cosine / sources.sine[k];
     images.x[k] = psi.outward * (c2 - s2);
     images.y[k] = sources.y[k] * (side * across);
@@ -93,29 +94,39 @@ Dispatched<bend_all_loop> bend_all;
 
 }  // namespace
 
-SphericalPoints::SphericalPoints(const SkyTable& table,
+SphericalPoints::SphericalPoints(std::vector<const SkyTable*> tables,
                                  const std::optional<PointTolerance>& tolerance)
-    : table_(table), psi_(psi_frame(table)) {
+    : tables_(std::move(tables)) {
+  for (const SkyTable* table : tables_) psi_.push_back(psi_frame(*table));
   if (!tolerance) return;
-  curves_.emplace_back(table, 0, kIntervals, *tolerance);
-  const double faint = kFaint * std::max(most_light(0), most_light(1));
-  for (int k = 1; k < kPairs || (k < kMostPairs && most_light(2 * k) > faint); ++k)
-    curves_.emplace_back(table, k, kIntervalsBesideEdge, *tolerance);
+  const auto tables = static_cast<int>(tables_.size());
+  const auto add_pair = [&](int pair, int intervals) {
+    for (const SkyTable* table : tables_) curves_.emplace_back(*table, pair, intervals, *tolerance);
+  };
+  const auto brings = [&](int pair) {
+    double most = 0;
+    for (int k = 0; k < 2 * tables; ++k) most = std::max(most, most_light(2 * pair * tables + k));
+    return most;
+  };
+  add_pair(0, kIntervals);
+  const double faint = kFaint * brings(0);
+  for (int pair = 1; pair < kPairs || (pair < kMostPairs && brings(pair) > faint); ++pair)
+    add_pair(pair, kIntervalsBesideEdge);
 }
 
 SkyImage SphericalPoints::image(const V3d& source, int order, double blur) const {
-  return image_of(&table_, source, order, blur);
+  return image_of(tables_[table_of(order)], source, order_in_table(order), blur);
 }
 
 std::vector<SkyImage> SphericalPoints::arc(const V3d& source, int order, double radius,
                                            const std::function<double(const V3d&)>& spacing) const {
-  return arc_of(table_, source, order, radius, spacing);
+  return arc_of(*tables_[table_of(order)], source, order_in_table(order), radius, spacing);
 }
 
 double SphericalPoints::most_light(int order) const {
   return order < orders_in_batches()
              ? curves_[static_cast<std::size_t>(order / 2)].largest_bound(order % 2 != 0)
-             : most_light_from(table_, order);
+             : most_light_from(*tables_[table_of(order)], order_in_table(order));
 }
 
 void SphericalPoints::locate(PointBatch& points, int count) const { to_lens(count, points); }
@@ -134,7 +145,7 @@ void SphericalPoints::images(int order, const PointBatch& points, int count,
   PointBatch::Column<double> psi, slope;
   const LensCurve& curve = curves_[static_cast<std::size_t>(order / 2)];
   look_up(curve.lookup(), side_of(order), points.v.data(), count, psi.data(), slope.data());
-  bend_all(psi_, side_of(order), psi.data(), slope.data(), points, count, images);
+  bend_all(psi_[table_of(order)], side_of(order), psi.data(), slope.data(), points, count, images);
 }
 
 }  // namespace domefall

@@ -1,21 +1,28 @@
-// The images of points of a sky through a spherical lens, by the sky's table and curves that are made
-// of it.
+// The images of points of a sky through a spherical lens, by the sky's tables and curves that are
+// made of them.
 #pragma once
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "pipeline/light/lens_curve.h"
 #include "pipeline/light/sky_points.h"
 
 namespace domefall {
 
+// A sky that is seen in two parts of the view has the images of both.  Its tables take turns with
+// pairs of orders, so that the images of even orders of a table have even numbers.
 class SphericalPoints : public SkyPoints {
  public:
-  // The table must outlive this object.  Without a tolerance no curves are made.
-  SphericalPoints(const SkyTable& table, const std::optional<PointTolerance>& tolerance);
+  // The tables, of which there is one at least, must outlive this object.  Without a tolerance no
+  // curves are made.
+  SphericalPoints(std::vector<const SkyTable*> tables,
+                  const std::optional<PointTolerance>& tolerance);
 
-  int orders() const override { return std::max(24, orders_in_batches()); }
+  int orders() const override {
+    return std::max(24 * static_cast<int>(tables_.size()), orders_in_batches());
+  }
   bool has_axis() const override { return true; }
   SkyImage image(const V3d& source, int order, double blur) const override;
   std::vector<SkyImage> arc(const V3d& source, int order, double radius,
@@ -31,9 +38,16 @@ class SphericalPoints : public SkyPoints {
               PointImageBatch& images) const override;
 
  private:
-  const SkyTable& table_;
-  PsiFrame psi_;
-  std::vector<LensCurve> curves_;
+  std::size_t table_of(int order) const {
+    return static_cast<std::size_t>(order / 2) % tables_.size();
+  }
+  int order_in_table(int order) const {
+    return order / 2 / static_cast<int>(tables_.size()) * 2 + order % 2;
+  }
+
+  std::vector<const SkyTable*> tables_;
+  std::vector<PsiFrame> psi_;      // of each table
+  std::vector<LensCurve> curves_;  // of each pair of orders
 };
 
 }  // namespace domefall

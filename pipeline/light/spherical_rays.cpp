@@ -46,8 +46,8 @@ constexpr int kFirst = 0, kSecond = 1, kHole = 2;
   for (int k = 0; k < count; ++k) {
     const double sine = std::sqrt(n.y[k] * n.y[k] + n.z[k] * n.z[k]);
     const HalfAngle half = half_angle(-o.inward * n.x[k], sine);
-    const double energy = std::abs(o.energy.sine2 * half.sine * half.sine +
-                                   o.energy.cosine2 * half.cosine * half.cosine);
+    const double energy = o.energy.one_plus_z(o.energy.sine2 * half.sine * half.sine +
+                                              o.energy.cosine2 * half.cosine * half.cosine);
     rays.sine[k] = sine;
     rays.sin_half[k] = half.sine;
     rays.cos_half[k] = half.cosine;
@@ -78,7 +78,8 @@ struct EdgeValues {
     const bool on = (lensed.azimuths.curve[k] == kHole) & (x > 0);
     lensed.azimuths.x[k] = on ? x : lensed.azimuths.x[k];
     lensed.azimuths.curve[k] = on ? part : lensed.azimuths.curve[k];
-    const double away = e.counts ? 2 * std::abs(x) : HUGE_VAL;
+    const double beside = 2 * std::abs(x);
+    const double away = e.counts ? (beside > e.edge.width ? beside : e.edge.width) : HUGE_VAL;
     to_edge[k] = away < to_edge[k] ? away : to_edge[k];
   }
 }
@@ -143,8 +144,9 @@ CurveRanges ranges_of(const HoleOptics& optics) {
   ranges.low.fill(-HUGE_VAL);
   ranges.high.fill(HUGE_VAL);
   const auto [first, second] = tables_of(optics);
-  if (first) ranges.low[kFirst] = first->curve().x_min();
-  if (second) ranges.low[kSecond] = second->curve().x_min();
+  if (first) ranges.low[kFirst] = first->curve().x_min(), ranges.high[kFirst] = first->curve_end();
+  if (second)
+    ranges.low[kSecond] = second->curve().x_min(), ranges.high[kSecond] = second->curve_end();
   if (!optics.white_hole) return ranges;
   ranges.low[kHole] = optics.white_hole->lookup().low;
   ranges.high[kHole] = optics.white_hole->lookup().high;
@@ -160,7 +162,9 @@ CurveRanges ranges_of(const HoleOptics& optics) {
     const double x = azimuths.x[k];
     const std::int64_t c = azimuths.curve[k];
     const double low = c == kFirst ? r.low[kFirst] : c == kSecond ? r.low[kSecond] : r.low[kHole];
-    const double high = c == kHole ? r.high[kHole] : HUGE_VAL;
+    const double high = c == kFirst    ? r.high[kFirst]
+                        : c == kSecond ? r.high[kSecond]
+                                       : r.high[kHole];
     outside |= ((x >= low) & (x <= high)) ? 0 : 1;
   }
   return outside != 0;
@@ -180,7 +184,7 @@ std::array<OctaveCurve::Lookup, AzimuthBatch::kCurves> curves_of(const HoleOptic
 }
 
 // Sets the azimuths of rays that lie outside the curves, next to an edge or the axis, where the
-// tables go on with fitted laws.  Such rays are few and are taken one by one.
+// tables go on with fitted laws or another curve.  Such rays are taken one by one.
 void apply_laws(const HoleOptics& optics, const CurveRanges& ranges, const TetradRays& rays,
                 int count, LensedRays& lensed) {
   const std::array<const SkyTable*, 2> tables = tables_of(optics);

@@ -66,12 +66,11 @@ void MattePass::fill_body(std::size_t body, int first, int end, const float* rgb
 
 void MattePass::fill_skies(int row, const std::vector<float*>& covered) const {
   const Projection& projection = scene_.projection();
-  const SkyRegion own = own_sky(scene_.state.observer);
   const ColumnRange inside = inside_columns(projection, row);
   for (int column = inside.first; column <= inside.last; ++column) {
     const PixelPosition pixel{column + 1.0, row + 1.0};
     const PerSky<double> parts =
-        borders_.parts(direction_at(projection, pixel), pixel_angle(projection, pixel), own, seen_);
+        borders_.parts(direction_at(projection, pixel), pixel_angle(projection, pixel), seen_);
     const double skies = parts[SkyRegion::kI] + parts[SkyRegion::kIII];
     covered[0][column] = static_cast<float>(parts[SkyRegion::kI]);
     covered[1][column] = static_cast<float>(parts[SkyRegion::kIII]);

@@ -65,6 +65,7 @@ double radius_of(const ViewCurve& curve) {
 SkyBorders::SkyBorders(const ViewTracer& tracer, const Projection& projection) {
   for (const SkyBorder& border : tracer.borders()) {
     curves_.push_back(border.sky_within ? reversed(border.curve) : border.curve);
+    skies_.push_back(border.sky);
     usable_ = usable_ && radius_of(border.curve) > kLeastRadius * largest_pixel_angle(projection);
   }
   usable_ = usable_ && !curves_.empty();
@@ -87,18 +88,13 @@ double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) c
   return std::min(part, 1.0);
 }
 
-// The border of the own sky comes first (Lens::borders).  A sky without a border is all around.
-PerSky<double> SkyBorders::parts(const CameraDirection& n, double pixel_angle, SkyRegion own,
+// A sky without a border is all around, and one with two lies beyond both.
+PerSky<double> SkyBorders::parts(const CameraDirection& n, double pixel_angle,
                                  const PerSky<bool>& seen) const {
   PerSky<double> parts;
-  std::size_t border = 0;
-  const auto add = [&](SkyRegion sky) {
-    if (seen[sky])
-      parts[sky] = curves_.empty() ? 1 : part_within(curves_[border++], n, pixel_angle);
-  };
-  add(own);
-  for (const SkyRegion sky : kExteriorSkies)
-    if (sky != own) add(sky);
+  for (const SkyRegion sky : kExteriorSkies) parts[sky] = curves_.empty() && seen[sky] ? 1 : 0;
+  for (std::size_t k = 0; k < curves_.size(); ++k)
+    parts[skies_[k]] += part_within(curves_[k], n, pixel_angle);
   return parts;
 }
 

@@ -30,9 +30,8 @@ class SkyBorders {
   // Returns the part of a pixel, 0 to 1, that sees a sky.  The pixel lies in the direction n and
   // covers `pixel_angle` radians.  A border counts as straight within a pixel.
   double part_in_skies(const CameraDirection& n, double pixel_angle) const;
-  // Returns that part for each sky by itself.  `own` is the own sky of the observer's tetrad, and
-  // `seen` says which skies the observer sees.
-  PerSky<double> parts(const CameraDirection& n, double pixel_angle, SkyRegion own,
+  // Returns that part for each sky by itself.  `seen` says which skies the observer sees.
+  PerSky<double> parts(const CameraDirection& n, double pixel_angle,
                        const PerSky<bool>& seen) const;
   // Returns a box that contains all pixels that do not see a sky as a whole, or nothing if the
   // frame has no such pixel.
@@ -43,6 +42,7 @@ class SkyBorders {
 
   // The sky of each lies where n.axis < cosine, or outside the polygon.
   std::vector<ViewCurve> curves_;
+  std::vector<SkyRegion> skies_;  // of each curve
   bool usable_ = true;
   std::optional<PixelBox> box_;
 };

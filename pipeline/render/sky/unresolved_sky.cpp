@@ -176,9 +176,10 @@ UnresolvedSkies find_unresolved_skies(const FrameScene& scene) {
   }
   const Lens& lens = *scene.tracer.lens();
   const auto integrate = [&](SkyRegion sky) {
-    const auto far_end = lens.far_end(sky);
-    if (!scene.background[sky] || !far_end) return;
-    finder.integrate_lensed(sky, to_observer(celerity, *far_end).direction, found);
+    const auto far_ends = lens.far_ends(sky);
+    if (!scene.background[sky] || far_ends.empty()) return;
+    for (const V3d& end : far_ends)
+      finder.integrate_lensed(sky, to_observer(celerity, end).direction, found);
     if (fast) finder.integrate_lensed(sky, celerity.normalized(), found);
   };
   integrate(own);

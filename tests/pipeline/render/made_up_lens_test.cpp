@@ -122,7 +122,7 @@ class MadeUpLens : public Lens {
           (kAxis + kLong * (kHalfLong * std::cos(t)) + kShort * (kHalfShort * std::sin(t)))
               .normalized());
     }
-    return {{corners, false}};
+    return {{corners, false, SkyRegion::kI}};
   }
   std::unique_ptr<const SkyPoints> points(SkyRegion sky,
                                           const std::optional<PointTolerance>&) const override {
