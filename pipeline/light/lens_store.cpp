@@ -23,6 +23,11 @@ HoleOptics optics_of(const Wormhole& wormhole, const ObserverState& observer) {
 
 }  // namespace
 
+HoleOptics optics_of(const ObserverState& observer) {
+  return std::visit([&](const auto& kind) { return optics_of(kind, observer); },
+                    observer.spacetime.kind());
+}
+
 std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
                                             const WantedSkies& wanted,
                                             const std::optional<StraightLight>& straight) {
@@ -39,8 +44,7 @@ std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
   const bool same = place_ == place;
   const int before = same ? table_count(*kept_) : 0;
   if (!same) {
-    kept_ = std::make_shared<HoleOptics>(std::visit(
-        [&](const auto& kind) { return optics_of(kind, observer); }, observer.spacetime.kind()));
+    kept_ = std::make_shared<HoleOptics>(optics_of(observer));
     place_ = place;
   } else if (lacks_tables(*kept_, wanted) && kept_.use_count() > 1) {
     // A lens that is still in use goes on to know the skies that it was made for.

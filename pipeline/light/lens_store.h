@@ -12,6 +12,9 @@ namespace domefall {
 
 struct HoleOptics;
 
+// Returns the optics of an observer without tables, and without any zone in flat space.
+HoleOptics optics_of(const ObserverState& observer);
+
 // A StraightLight is for shows that leave lensing out near a hole: the celerity of the observer
 // at rest, and the frequency ratio of all light in that observer's frame.
 struct StraightLight {

@@ -107,15 +107,19 @@ struct ChargedHole {
   double tortoise(const ChargedRadius& at) const;
   double tortoise(double r) const { return tortoise(at(r)); }
 
-  // Says which of the skies I and III are seen at r of a region, where light is bent.  Both are seen
-  // between the horizons only: beyond r_- no light of the other exterior arrives.  What is seen of
-  // an earlier universe is not told.
-  PerSky<bool> seen_skies(Region region, Tetrad tetrad, int universe, double r) const {
-    const ChargedRadius place = at(r);
-    const bool between = !is_naked() && place.above_outer < 0 && place.above_inner > 0;
+  // Says which skies are seen from a region, where light is bent.  Those of both exteriors are seen
+  // between the horizons only: beyond r_- no light of the other one arrives.  Light of the universe
+  // before comes through the inside.
+  PerSky<bool> seen_skies(Region region, Tetrad tetrad, int universe, double) const {
+    const Tetrad other = mirror_of(tetrad);
+    const bool rising = region == Region::kIV, falling = region == Region::kII;
+    const bool within = region == Region::kV || region == Region::kVI;
+    const bool through = universe > 0 && charge > 0 && !is_naked();
     PerSky<bool> seen;
-    seen[own_sky(tetrad, universe)] = region != Region::kIV;
-    seen[own_sky(mirror_of(tetrad), universe)] = region == Region::kII && between;
+    seen[own_sky(tetrad, universe)] = !rising;
+    if (falling) seen[own_sky(other, universe)] = true;
+    if (through && !falling && !within) seen[own_sky(tetrad, universe - 1)] = true;
+    if (through && rising) seen[own_sky(other, universe - 1)] = true;
     return seen;
   }
 

@@ -5,7 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "pipeline/light/silhouette.h"
+#include "pipeline/light/hole_optics.h"
+#include "pipeline/light/lens_store.h"
 
 namespace domefall {
 namespace {
@@ -13,64 +14,64 @@ namespace {
 // This is the plane of R and c, in which the angle of a direction is measured from R.
 struct Plane {
   double gamma, radial, across;
-  StaticTime time;
+  ViewEnergy energy;
+  double inward;  // of HoleOptics
+
+  // 1 + z goes by half of alpha, which counts from -R where inward is 1.
+  double from_hole(double angle) const { return inward > 0 ? std::numbers::pi - angle : angle; }
 
   // Returns the frequency ratio in a direction of the plane.  gamma + c.m cancels behind a fast
   // observer.  Since gamma - |c| = 1/(gamma + |c|), it is also the sum of positive terms
   //     gamma + |c| cos x = 1/(gamma + |c|) + 2 |c| cos^2(x/2),
   // where x is the angle between c and m.
   double ratio(double angle) const {
-    const double length = std::hypot(radial, across);
+    const double length = std::hypot(radial, across), alpha = from_hole(std::abs(angle));
     const double half = std::cos((angle - std::atan2(across, radial)) / 2);
+    const double s = std::sin(alpha / 2), c = std::cos(alpha / 2);
     return (1 / (gamma + length) + 2 * length * half * half) /
-           std::abs(time.along_t + time.along_r * std::cos(angle));
+           energy.one_plus_z(energy.sine2 * s * s + energy.cosine2 * c * c);
+  }
+
+  // Returns the angles at which the ratio is extreme in the plane, by the equation of the header,
+  // length cos(a - axis) = -s c_t.
+  std::vector<double> extremes() const {
+    const double along_t = (energy.sine2 + energy.cosine2) / 2;
+    const double along_r = inward * (energy.sine2 - energy.cosine2) / 2;
+    const double b = along_r * gamma - along_t * radial, a = along_t * across;
+    const double length = std::hypot(a, b), cosine = -along_r * across / length;
+    if (!(length > 0 && std::abs(cosine) <= 1)) return {};
+    const double axis = std::atan2(b, a), apart = std::acos(cosine);
+    return {std::remainder(axis + apart, 2 * std::numbers::pi),
+            std::remainder(axis - apart, 2 * std::numbers::pi)};
   }
 };
-
-// Returns the angle from -R, in rain, at which the sky ends that is the tetrad's own, or the other.
-double edge_from_hole(const Spacetime& spacetime, double r, bool own) {
-  if (const auto* hole = std::get_if<ChargedHole>(&spacetime.kind())) {
-    const auto edges = hole->critical_tangents(hole->at(r));
-    return 2 * std::atan(std::abs(static_cast<double>(own ? edges.first : edges.second)));
-  }
-  // All light has the energy 1 in a wormhole, so that any part of the view stands for the whole.
-  if (spacetime.is<Wormhole>()) return own ? 0 : std::numbers::pi;
-  return own ? silhouette_edge(r) : region_three_edge(r);
-}
 
 }  // namespace
 
 std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky, bool straight) {
   if (!seen_skies(o)[sky]) return std::nullopt;
-  const bool own = sky == own_sky(o);
   if (straight || is_flat(o)) {
     // The extreme Doppler factors are gamma -+ |c|, each of which is the inverse of the other.
     const double speed = static_celerity(o).length(), gamma = std::hypot(1.0, speed);
     const double hole = o.spacetime.gravitational_ratio(o.r);
     return ShiftRange{hole / (gamma + speed), hole * (gamma + speed)};
   }
-  const StaticTime time = o.spacetime.static_time(o.r);
-  const auto c = rain_celerity(o.spacetime, o.r, o.tetrad, o.celerity);
-  const Plane plane{gamma_of(c), c.x, std::hypot(c.y, c.z), time};
-  // The own sky of the tetrad extends from R to the silhouette, and the other one from its edge to
-  // -R.
-  const double edge = std::numbers::pi - edge_from_hole(o.spacetime, o.r, own);
-  std::vector<double> angles{edge, -edge, own ? 0 : std::numbers::pi};
-  // The equation of the header for the extremes is solved as length cos(a - axis) = -s c_t.
-  const double b = time.along_r * plane.gamma - time.along_t * plane.radial;
-  const double across = time.along_t * plane.across, length = std::hypot(across, b);
-  const double cosine = -time.along_r * plane.across / length;
-  if (length > 0 && std::abs(cosine) <= 1) {
-    const double axis = std::atan2(b, across), apart = std::acos(cosine);
-    for (const double angle : {axis + apart, axis - apart}) {
-      const double wrapped = std::remainder(angle, 2 * std::numbers::pi);
-      if (own ? std::abs(wrapped) < edge : std::abs(wrapped) > edge) angles.push_back(wrapped);
-    }
-  }
+  const HoleOptics optics = optics_of(o);
+  const Celerity<ReferenceTetrad>& c = o.celerity;
+  const Plane plane{gamma_of(c), c.x, std::hypot(c.y, c.z), optics.energy, optics.inward};
   ShiftRange range{HUGE_VAL, 0};
-  for (const double angle : angles) {
+  const auto add = [&](double angle) {
     const double ratio = plane.ratio(angle);
     range = {std::min(range.least, ratio), std::max(range.largest, ratio)};
+  };
+  // The sky extends from the edge of each of its zones to the axis.
+  for (const SkyPart& part : optics.parts) {
+    if (part.sky != sky) continue;
+    const SkyEdge& edge = part.zone.edge;
+    const double rim = edge.half.angle(), end = edge.sign > 0 ? std::numbers::pi : 0;
+    for (const double angle : {rim, -rim, end}) add(plane.from_hole(angle));
+    for (const double angle : plane.extremes())
+      if (edge.sign * (plane.from_hole(std::abs(angle)) - rim) > 0) add(angle);
   }
   return range;
 }

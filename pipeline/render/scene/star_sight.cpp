@@ -19,8 +19,9 @@ StarSight::StarSight(const FrameState& state, const Effects& effects)
       observer_(state.observer),
       viewer_(viewer_of(state.observer, effects)),
       lens_(lens_of(state.observer, WantedSkies{}, effects)) {
-  if (observer_.region == Region::kIV) return;
-  for (const SkyRegion sky : kExteriorSkies) points_[sky] = lens_->points(sky, {});
+  const PerSky<bool> seen = seen_skies(observer_);
+  for (const SkyRegion sky : kExteriorSkies)
+    if (seen[sky]) points_[sky] = lens_->points(sky, {});
 }
 
 bool StarSight::sees(SkyRegion sky) const { return points_[sky] != nullptr; }

@@ -6,43 +6,15 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "tests/source_tree.h"
+#include "tests/pipeline/light/charged_rays.h"
 
 namespace domefall {
 namespace {
-
-// A row of tests/reference/charged_rays.csv.
-struct ChargedReference {
-  std::string line, edge, origin, beyond;
-  long double charge, r, delta, offset;
-  double mino, k, one_plus_z;
-};
-
-std::vector<ChargedReference> charged_references() {
-  std::ifstream file(source_file("tests/reference/charged_rays.csv"));
-  std::vector<ChargedReference> rays;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("#") || line.starts_with("kind")) continue;
-    std::vector<std::string> cell;
-    std::istringstream cells(line);
-    for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
-    cell.resize(23);
-    const auto number = [&](std::size_t column) {
-      return cell[column].empty() ? 0 : std::stold(cell[column]);
-    };
-    rays.push_back({line, cell[7], cell[9], cell[10], number(2), number(3), number(5), number(8),
-                    static_cast<double>(number(19)), static_cast<double>(number(22)),
-                    static_cast<double>(std::abs(number(20)))});
-  }
-  return rays;
-}
 
 ChargedRay ray_of(const ChargedView& view, const ChargedReference& row) {
   if (row.edge.empty()) return view.ray_at(polar_angle(row.delta));
