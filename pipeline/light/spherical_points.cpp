@@ -99,13 +99,13 @@ SphericalPoints::SphericalPoints(std::vector<const SkyTable*> tables,
     : tables_(std::move(tables)) {
   for (const SkyTable* table : tables_) psi_.push_back(psi_frame(*table));
   if (!tolerance) return;
-  const auto tables = static_cast<int>(tables_.size());
+  const auto each = static_cast<int>(tables_.size());
   const auto add_pair = [&](int pair, int intervals) {
     for (const SkyTable* table : tables_) curves_.emplace_back(*table, pair, intervals, *tolerance);
   };
   const auto brings = [&](int pair) {
     double most = 0;
-    for (int k = 0; k < 2 * tables; ++k) most = std::max(most, most_light(2 * pair * tables + k));
+    for (int k = 0; k < 2 * each; ++k) most = std::max(most, most_light(2 * pair * each + k));
     return most;
   };
   add_pair(0, kIntervals);
