@@ -35,6 +35,13 @@ TEST(FrameKeys, KnowPixelsThatAreNotSquare) {
   EXPECT_EQ(key_of(again), key_of(show));
 }
 
+// Throughout a cylinder r is the same.
+TEST(FrameKeys, KnowTheLengthInAWormhole) {
+  std::set<std::string> keys;
+  for (const double l : {0.0, 0.1, 0.2, -0.1, 3.0, -3.0})
+    EXPECT_TRUE(keys.insert(key_of(show_in_wormhole(l, Domemaster{64}))).second) << l;
+}
+
 TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
   Show show = at_ten();
   show.sky[SkyRegion::kIV].background = RingsSky{4};

@@ -75,6 +75,14 @@ inline Show show_of(const Trajectory& trajectory, const Projection& projection) 
   return show;
 }
 
+// At rest in a wormhole whose mouth is seen at the show's place.
+inline Show show_in_wormhole(double l, const Projection& projection) {
+  const Wormhole wormhole{1, Wormhole::Profile::kDngr, 0.5, 0.3};
+  Show show = show_of(WormholeCircle{wormhole, l}, projection);
+  show.spacetime = wormhole;
+  return show;
+}
+
 inline Show starry(Show show) {
   show.sky[SkyRegion::kI].background = PanoramaSky{small_panorama()};
   show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "stars_to_9.stars", 6.5};
