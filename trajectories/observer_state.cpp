@@ -4,6 +4,16 @@
 
 namespace domefall {
 
+M33d sky_axes(const ObserverState& o, SkyRegion sky) {
+  if (sky != SkyRegion::kIII || !o.spacetime.is<Wormhole>()) return o.sky_from_tetrad;
+  const V3d& mouth = o.mouth_at_start;
+  const auto mirrored = [&](int k) {
+    const V3d axis = column(o.sky_from_tetrad, k);
+    return axis - mouth * (2 * mouth.dot(axis));
+  };
+  return from_columns(mirrored(0), mirrored(1), mirrored(2));
+}
+
 Celerity<ReferenceTetrad> resting_celerity(const Spacetime& spacetime, double r, Tetrad tetrad) {
   const double celerity = spacetime.resting_celerity(r);
   return {is_outgoing(tetrad) ? -celerity : celerity, 0, 0};

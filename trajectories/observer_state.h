@@ -29,8 +29,12 @@ struct ObserverState {
   // In a wormhole r is r(l), and this is the proper length from the middle of its throat, positive in
   // region I and negative in region III.  Elsewhere it is 0.
   double l = 0;
+  // In a wormhole this is the direction in which its mouth was seen at the start of the show, a unit
+  // vector on the sky of region I (sky_axes).
+  V3d mouth_at_start{1, 0, 0};
   // The columns are the directions of R, Theta and Phi of the reference tetrad on the celestial
-  // sphere, so R is the observer's place as seen from the hole.  It is a rotation.
+  // sphere, so R is the observer's place as seen from the hole.  It is a rotation.  What lies on a
+  // sky is placed by sky_axes().
   M33d sky_from_tetrad;
   Celerity<ReferenceTetrad> celerity;  // any finite value is possible
   // The columns are camera X, Y, Z in the boosted tetrad (B R, B Theta, B Phi), with B the boost of
@@ -39,6 +43,21 @@ struct ObserverState {
 };
 
 inline bool is_flat(const ObserverState& o) { return o.spacetime.is_flat(); }
+
+// Returns the directions of R, Theta and Phi on one sky, as columns.  They are those of
+// sky_from_tetrad, but on the sky of region III of a wormhole their mirror images: who looks outward
+// there looks at the spheres about the throat from their other side, and is to see that sky the
+// right way round.  The mirror stands across the view of the mouth at the show's start.  So the far
+// sky is seen upright in the mouth, and who flies straight in has the same places ahead, above and
+// to the right as on this side.
+M33d sky_axes(const ObserverState& o, SkyRegion sky);
+
+// Returns the sky of the region that the tetrad belongs to, in a wormhole that of the observer's
+// side.
+inline SkyRegion own_sky(const ObserverState& o) {
+  if (!o.spacetime.is<Wormhole>()) return own_sky(o.tetrad);
+  return o.region == Region::kIII ? SkyRegion::kIII : SkyRegion::kI;
+}
 
 inline PerSky<bool> seen_skies(const ObserverState& o) {
   return o.spacetime.seen_skies(o.region, o.tetrad, o.universe, o.r);

@@ -52,9 +52,11 @@ std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
   }
   add_tables(*kept_, wanted);
   tables_made_ = table_count(*kept_) - before;
+  PerSky<M33d> axes;
+  for (const SkyRegion sky : kEverySky) axes[sky] = sky_axes(observer, sky);
   if (observer.spacetime.is<Schwarzschild>())
-    return std::make_shared<SchwarzschildLens>(kept_, observer.sky_from_tetrad);
-  return std::make_shared<SphericalLens>(kept_, observer.sky_from_tetrad);
+    return std::make_shared<SchwarzschildLens>(kept_, axes);
+  return std::make_shared<SphericalLens>(kept_, axes);
 }
 
 std::size_t LensStore::table_nodes() const { return kept_ ? node_count(*kept_) : 0; }

@@ -14,8 +14,10 @@ bool is_from_core(const SkyZone& zone) { return zone.end && zone.end->core; }
 
 }  // namespace
 
-SphericalLens::SphericalLens(std::shared_ptr<const HoleOptics> optics, const M33d& sky_from_tetrad)
-    : optics_(std::move(optics)), sky_from_tetrad_(sky_from_tetrad) {}
+SphericalLens::SphericalLens(std::shared_ptr<const HoleOptics> optics, const PerSky<M33d>& axes)
+    : optics_(std::move(optics)),
+      axes_(axes),
+      far_mirrored_(axes[SkyRegion::kIII] != axes[SkyRegion::kI]) {}
 
 // Returns the circle of all directions at the angle alpha of SkyZone.
 ViewCircle SphericalLens::circle_at(const HalfAngle& alpha) const {
@@ -97,7 +99,7 @@ void SphericalLens::divide(const SkyTable& table, int along, int around,
     for (int j = 0; j < around; ++j) {
       const V3d e(0, std::cos((j + 0.5) * d_psi), std::sin((j + 0.5) * d_psi));
       sample.direction = V3d(-optics_->inward * cosine, 0, 0) + e * sine;
-      sample.sky_direction = apply(sky_from_tetrad_, V3d(std::cos(phi), 0, 0) + e * std::sin(phi));
+      sample.sky_direction = apply(axes_[sky], V3d(std::cos(phi), 0, 0) + e * std::sin(phi));
       samples.push_back(sample);
     }
   }
@@ -159,15 +161,15 @@ ViewRay SphericalLens::ray(const V3d& d) const {
   // The light started at cos(phi) R + sin(phi) e, with e the part of d across R made a unit vector.
   const double sine = std::sin(phi), cosine = std::cos(phi);
   const double across = sin_alpha > 0 ? sine / sin_alpha : 0;
-  ray.sky_direction = apply(sky_from_tetrad_, V3d(cosine, d.y * across, d.z * across));
+  ray.sky_direction = apply(axes_[ray.sky], V3d(cosine, d.y * across, d.z * across));
   // As the angle from R grows, the direction moves along d.x e - sin(alpha) R.  As the plane of R
   // and e turns about R, direction and place move along R x e or against it.
   const V3d e = sin_alpha > 0 ? V3d(0, d.y, d.z) / sin_alpha : V3d(0, 1, 0);
   ray.axis = (e * d.x - V3d(sin_alpha, 0, 0)) * side;
-  ray.along = apply(sky_from_tetrad_, e * cosine - V3d(sine, 0, 0));
+  ray.along = apply(axes_[ray.sky], e * cosine - V3d(sine, 0, 0));
   ray.scale_along = slope;
   ray.scale_across = std::abs(across);
-  ray.mirrored = side * across < 0;
+  ray.mirrored = (side * across < 0) != (far_mirrored_ && ray.sky == SkyRegion::kIII);
   return ray;
 }
 

@@ -8,8 +8,8 @@ namespace domefall {
 
 class SphericalLens : public Lens {
  public:
-  // A sky without a table is not known.
-  SphericalLens(std::shared_ptr<const HoleOptics> optics, const M33d& sky_from_tetrad);
+  // A sky without a table is not known.  The axes are sky_axes().
+  SphericalLens(std::shared_ptr<const HoleOptics> optics, const PerSky<M33d>& axes);
 
   // The measured difference from single rays is at most 1e-15 radians on the sky and a relative
   // 1e-14, because vector_math.h rounds differently from the C library.
@@ -34,7 +34,8 @@ class SphericalLens : public Lens {
   void divide(const SkyTable& table, int along, int around, std::vector<SkySample>& samples) const;
 
   std::shared_ptr<const HoleOptics> optics_;
-  M33d sky_from_tetrad_;
+  PerSky<M33d> axes_;  // those of region IV are those of I
+  bool far_mirrored_;  // whether those of region III are others
 };
 
 }  // namespace domefall

@@ -14,7 +14,7 @@ namespace {
 // An Observer holds what the loops need to know of the observer.  Each loop copies it, so that the
 // compiler knows that no store of the loop alters it.
 struct Observer {
-  M33d sky_from_tetrad;
+  M33d axes;  // of R, Theta and Phi on the sky
   ViewEnergy energy;
   double inward;  // of SkyZone
 };
@@ -247,11 +247,11 @@ void add_emission_times(const HoleOptics& optics, const TetradRays& rays, const 
     const double inverse = sine > 0 ? 1 / (sine > 0 ? sine : 1) : 0;
     const double across = phi.sine * inverse;
     const double back = phi.cosine * inverse;
-    const V3d sky = apply(o.sky_from_tetrad, V3d(phi.cosine, n.y[k] * across, n.z[k] * across));
+    const V3d sky = apply(o.axes, V3d(phi.cosine, n.y[k] * across, n.z[k] * across));
     batch.sky_x[k] = sky.x;
     batch.sky_y[k] = sky.y;
     batch.sky_z[k] = sky.z;
-    const V3d along = apply(o.sky_from_tetrad, V3d(-phi.sine, n.y[k] * back, n.z[k] * back));
+    const V3d along = apply(o.axes, V3d(-phi.sine, n.y[k] * back, n.z[k] * back));
     batch.along_x[k] = along.x;
     batch.along_y[k] = along.y;
     batch.along_z[k] = along.z;
@@ -261,10 +261,23 @@ void add_emission_times(const HoleOptics& optics, const TetradRays& rays, const 
 }
 Dispatched<onto_sky_loop> onto_sky;
 
+// Puts the rays of sky III, which have the axes of sky I, onto their own sky.
+void turn_far_rays(const PerSky<M33d>& axes, int count, ViewRayBatch& batch) {
+  const M33d& from = axes[SkyRegion::kI];
+  const M33d& to = axes[SkyRegion::kIII];
+  for (int k = 0; k < count; ++k) {
+    if (batch.sky[k] != SkyRegion::kIII) continue;
+    const V3d sky = apply(to, apply_transposed(from, batch.sky_direction(k)));
+    const V3d along = apply(to, apply_transposed(from, batch.along(k)));
+    batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
+    batch.along_x[k] = along.x, batch.along_y[k] = along.y, batch.along_z[k] = along.z;
+  }
+}
+
 }  // namespace
 
 void SphericalLens::rays(const DirectionBatch& n, int count, ViewRayBatch& batch) const {
-  const Observer observer{sky_from_tetrad_, optics_->energy, optics_->inward};
+  const Observer observer{axes_[SkyRegion::kI], optics_->energy, optics_->inward};
   TetradRays rays;
   find_angles(observer, n, count, rays, batch);
   LensedRays lensed;
@@ -286,6 +299,7 @@ void SphericalLens::rays(const DirectionBatch& n, int count, ViewRayBatch& batch
   set_azimuths(*optics_, rays, count, lensed, batch);
   if (optics_->emission_times) add_emission_times(*optics_, rays, lensed, count, batch);
   onto_sky(observer, n, rays, lensed, count, batch);
+  if (far_mirrored_) turn_far_rays(axes_, count, batch);
 }
 
 }  // namespace domefall

@@ -16,7 +16,8 @@ void add_observer(Digest& digest, const ObserverState& o) {
   for (const double parameter : parameters) digest.add(rounded_for_key(parameter));
   if (o.universe != 0) digest.add("universe").add(o.universe);
   if (o.spacetime.is<Wormhole>())  // throughout whose cylinder r is the same
-    digest.add(rounded_for_key(o.l));
+    for (const double v : {o.l, o.mouth_at_start.x, o.mouth_at_start.y, o.mouth_at_start.z})
+      digest.add(rounded_for_key(v));
   for (const double v : {o.celerity.x, o.celerity.y, o.celerity.z}) digest.add(rounded_for_key(v));
   add_rotation(digest, o.sky_from_tetrad);
   add_rotation(digest, o.tetrad_from_camera);

@@ -138,7 +138,7 @@ std::optional<V3d> target_direction(const Attitude& attitude, const ObserverStat
   if (const auto* sky = std::get_if<LookAtSky>(&attitude)) {
     // From region IV no sky is seen.  At r = 2 its images appear in the outward direction.
     if (o.region == Region::kIV) return to_observer(viewer.celerity, V3d(1, 0, 0)).direction;
-    const V3d source = apply_transposed(o.sky_from_tetrad, sky->target.v);
+    const V3d source = apply_transposed(sky_axes(o, own_sky(o)), sky->target.v);
     const V3d image = effects.lensing ? aiming_lens(o)->primary_image(source)
                                       : to_tetrad(viewer.rest, source).direction;
     return to_observer(viewer.celerity, image).direction;

@@ -168,6 +168,7 @@ ObserverState observer_at(const Show& show, int segment, double part) {
   o.null_time = double(joint.null_time);
   o.azimuth = joint.azimuth;
   o.sky_from_tetrad = joint.axes;
+  o.mouth_at_start = show.hole_at.v;
   return o;
 }
 

@@ -98,12 +98,11 @@ void AxisStars::add(const FrameState& state) {
 void AxisStars::add(const FrameState& state, bool vanishes) {
   const ObserverState& o = state.observer;
   if (is_flat(o)) return;
-  const M33d& axes = o.sky_from_tetrad;
-  // The first axis is R, which points away from the hole.
-  const V3d behind(-axes[0][0], -axes[1][0], -axes[2][0]);
   const PerSky<bool> seen = seen_skies(o);
   for (const SkyRegion region : kExteriorSkies) {
     if (!seen[region]) continue;
+    // The first axis is R, which points away from the hole.
+    const V3d behind = -column(sky_axes(o, region), 0);
     for (const Class& each : stars_[region])
       for (const double side : {1.0, -1.0}) {
         const V3d axis = behind * side;

@@ -35,7 +35,7 @@ int StarSight::orders() const {
 }
 
 StarSight::Image StarSight::image(SkyRegion sky, const SkyDirection& star, int order) const {
-  const V3d source = apply_transposed(observer_.sky_from_tetrad, star.v);
+  const V3d source = apply_transposed(sky_axes(observer_, sky), star.v);
   const SkyImage at = out_of_lens(*lens_, points_[sky]->image(source, order, kLeastSource));
   const AberratedLight seen = to_observer(viewer_.celerity, at.direction.v);
   // The frequency changes from the star to the tetrad, from there to the observer whose directions

@@ -70,6 +70,7 @@ StarImageFinder::StarImageFinder(const FrameScene& scene, SkyRegion sky)
     : scene_(scene),
       sky_(scene.state.settings.sky[sky]),
       observer_(scene.state.observer),
+      axes_(sky_axes(observer_, sky)),
       viewer_(scene.tracer.viewer()),
       from_tetrad_(-viewer_.celerity),
       to_measured_(-viewer_.measured.value_or(Celerity<RestFrame>())),
@@ -104,8 +105,7 @@ std::optional<SceneStar> StarImageFinder::with_gain(const SceneStar& catalogued)
 void StarImageFinder::append(const SceneStar& catalogued, std::vector<StarImage>& images) const {
   const auto star = with_gain(catalogued);
   if (star)
-    append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v), 0,
-                  points_->orders(), images);
+    append_orders(*star, apply_transposed(axes_, star->direction.v), 0, points_->orders(), images);
 }
 
 // Appends the images of the orders from `first` to before `end`.

@@ -109,6 +109,7 @@ class StarImageFinder {
   const FrameScene& scene_;
   const FrameSettings::Sky& sky_;  // gain and limit of these stars
   const ObserverState& observer_;
+  M33d axes_;  // of R, Theta and Phi on the sky
   const Viewer& viewer_;
   std::unique_ptr<const SkyPoints> points_;  // null where the lens has no table of the sky
   Aberration from_tetrad_, to_measured_;

@@ -38,7 +38,7 @@ struct StarImageFinder::Batch {
 };
 
 void StarImageFinder::prepare_batches() {
-  batch_frame_.sky_from_tetrad = observer_.sky_from_tetrad;
+  batch_frame_.axes = axes_;
   batch_frame_.tetrad_from_camera = observer_.tetrad_from_camera;
   batch_frame_.from_tetrad = from_tetrad_;
   batch_frame_.gain = sky_.star_gain;
@@ -162,8 +162,8 @@ void StarImageFinder::append_exact(const SceneStars& stars, const Batch& batch,
                                    std::vector<StarImage>& images) const {
   for (const Batch::SetAside& orders : batch.set_aside)
     if (const auto star = with_gain(stars[batch.first + static_cast<std::size_t>(orders.source)]))
-      append_orders(*star, apply_transposed(observer_.sky_from_tetrad, star->direction.v),
-                    orders.first_order, orders.end_order, images);
+      append_orders(*star, apply_transposed(axes_, star->direction.v), orders.first_order,
+                    orders.end_order, images);
 }
 
 // Gives the views that reach the frame their colours, and appends those that are brighter than

@@ -23,7 +23,7 @@ struct Input {
 [[gnu::always_inline]] inline void stars_into_tetrad_loop(const StarFrame& frame,
                                                           const Input& input, int count,
                                                           StarSources& s) {
-  const M33d matrix = frame.sky_from_tetrad;
+  const M33d matrix = frame.axes;
   const double gain = frame.gain, limit = frame.limit, inverse_fade = frame.inverse_fade;
   const Input in = input;
   for (int k = 0; k < count; ++k) {

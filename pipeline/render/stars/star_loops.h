@@ -15,7 +15,8 @@ inline constexpr int kStarBatch = static_cast<int>(SceneStars::kBlock);
 
 // A StarFrame holds the constants of a frame that the loops need.
 struct StarFrame {
-  M33d sky_from_tetrad, tetrad_from_camera;
+  M33d axes;  // of R, Theta and Phi on the sky (sky_axes)
+  M33d tetrad_from_camera;
   Aberration from_tetrad{V3d(0, 0, 0)};
   // The flux of a star of magnitude m is multiplied by gain * min(1, (limit - m) * inverse_fade),
   // and by 0 from the limit on.

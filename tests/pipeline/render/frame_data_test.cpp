@@ -47,6 +47,25 @@ TEST(FrameMattes, AddUp) {
   }
 }
 
+// On either side of the throat each sky's matte is where that sky is.
+TEST(FrameMattes, KnowTheSkiesOnBothSidesOfAWormhole) {
+  for (const double l : {2.0, -2.0}) {
+    Show show = show_in_wormhole(l, Domemaster{64});
+    const LayeredFloatFrame frame = with_mattes(show);
+    const FrameState state = frame_state(show, 0);
+    const ViewTracer tracer(state, WantedSkies{}, show.effects);
+    for (int row = 4; row < 64; row += 4)
+      for (int column = 4; column < 64; column += 4) {
+        const PixelPosition at{column + 1.0, row + 1.0};
+        if (!is_inside(state.projection, at)) continue;
+        const ViewRay ray = tracer.trace(direction_at(state.projection, at));
+        if (ray.to_edge < 0.1) continue;
+        const auto k = static_cast<std::size_t>(64 * row + column);
+        EXPECT_EQ(matte(frame, ray.sky == SkyRegion::kI ? "sky_I" : "sky_III")[k], 1) << l;
+      }
+  }
+}
+
 // The silhouette's part of a pixel against 16 x 16 rays in it.
 TEST(FrameMattes, AreAsSmoothAsThePicture) {
   for (const double r : {12.0, 1.4}) {

@@ -36,10 +36,14 @@ TEST(FrameKeys, KnowPixelsThatAreNotSquare) {
 }
 
 // Throughout a cylinder r is the same.
-TEST(FrameKeys, KnowTheLengthInAWormhole) {
+TEST(FrameKeys, KnowTheLengthInAWormholeAndWhereItsMouthWas) {
   std::set<std::string> keys;
   for (const double l : {0.0, 0.1, 0.2, -0.1, 3.0, -3.0})
     EXPECT_TRUE(keys.insert(key_of(show_in_wormhole(l, Domemaster{64}))).second) << l;
+  const Show show = show_in_wormhole(1, Domemaster{64});
+  FrameState state = frame_state(show, 0);
+  state.observer.mouth_at_start = {0, 0, 1};
+  EXPECT_NE(FrameKeys(show).scene(state), key_of(show));
 }
 
 TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {

@@ -26,6 +26,9 @@ std::vector<Show> tracing_observers() {
           show_of(GivenVelocity{Region::kIV, Tetrad::kOutgoing, 1.99,
                                 resting_celerity(1.99, Tetrad::kOutgoing)},
                   dome),
+          show_in_wormhole(4, dome),
+          show_in_wormhole(0.1, dome),
+          show_in_wormhole(-2, dome),
           show_of(GivenVelocity{Region::kI, Tetrad::kRain, kFlatSpace, {0, 1, 2}}, dome)};
 }
 
@@ -115,6 +118,45 @@ TEST(ViewTracer, OrionStandsUprightAndUnmirrored) {
   EXPECT_NEAR(betelgeuse.j, 153, 2);
   EXPECT_NEAR(rigel.i, 506, 2);
   EXPECT_NEAR(rigel.j, 463, 2);
+}
+
+// Far beyond the throat a screen that looks away from the mouth has the far sky as it would have
+// it in flat space: what was ahead of it when the show began, upright and the right way round.
+TEST(ViewTracer, TheFarSkyOfAWormholeStandsUprightAndUnmirrored) {
+  const Projection screen = Stereographic{800, 600, 40 * kDegree};
+  Show beyond = show_in_wormhole(-1e7, screen), home = show_of(StaticObserver{}, screen);
+  beyond.heading = 90 * kDegree;  // so that what is up for the camera is north
+  beyond.timeline[0].camera.attitude = home.timeline[0].camera.attitude = LookAtSky{beyond.hole_at};
+  const FrameState far = frame_state(beyond, 0), near = frame_state(home, 0);
+  const ViewTracer there(far, WantedSkies{}), here(near, WantedSkies{});
+  for (const PixelPosition pixel : {PixelPosition{400.5, 300.5}, PixelPosition{700, 300},
+                                    PixelPosition{400, 100}, PixelPosition{20, 560}}) {
+    const CameraDirection n = direction_at(screen, pixel);
+    const ViewRay seen = there.trace(n);
+    EXPECT_EQ(seen.sky, SkyRegion::kIII);
+    EXPECT_FALSE(seen.mirrored);
+    EXPECT_LT((seen.sky_direction - here.trace(n).sky_direction).length(), 1e-6);
+  }
+}
+
+// In the mouth, as in a window, the far sky is upright, and mirrored as little as around it.
+TEST(ViewTracer, TheFarSkyStandsUprightInTheMouth) {
+  Show show = show_in_wormhole(6, Stereographic{800, 600, 40 * kDegree});
+  show.timeline[0].camera.attitude = LookAtHole{};
+  const FrameState state = frame_state(show, 0);
+  const ViewTracer tracer(state, WantedSkies{});
+  const ViewRay middle = tracer.trace({V3d(0, 0, 1)});
+  EXPECT_EQ(middle.sky, SkyRegion::kIII);
+  EXPECT_LT((middle.sky_direction - show.hole_at.v).length(), 1e-9);
+  const V3d &x = column(state.observer.tetrad_from_camera, 0),
+            &y = column(state.observer.tetrad_from_camera, 1);
+  for (const double angle : {0.5, 2.0, 4.0}) {
+    const V3d aside = V3d(std::cos(angle), std::sin(angle), 0) * 1e-3;
+    const ViewRay ray = tracer.trace({(V3d(0, 0, 1) + aside).normalized()});
+    EXPECT_FALSE(ray.mirrored);
+    const V3d to = apply(state.observer.sky_from_tetrad, x * aside.x + y * aside.y);
+    EXPECT_GT((ray.sky_direction - show.hole_at.v).normalized().dot(to.normalized()), 0.999);
+  }
 }
 
 }  // namespace

@@ -153,6 +153,35 @@ TEST(StarImageFinder, InBatchesAreThoseOfTheFormulasAndNoneIsLost) {
     }
 }
 
+// The images of a star, found in batches or one by one, stand where rays come from it.
+TEST(StarImageFinder, PutsStarsOfBothSkiesOfAWormholeWhereTheSkiesAre) {
+  std::mt19937 random(8);
+  for (const double l : {3.0, -3.0}) {
+    const Show show = show_in_wormhole(l, Domemaster{512});
+    FrameState state = frame_state(show, 0);
+    for (const SkyRegion sky : kExteriorSkies) state.settings.sky[sky].max_magnitude = 99;
+    const FrameScene scene = scene_with(show, state);
+    for (const SkyRegion sky : kExteriorSkies) {
+      const StarImageFinder finder(scene, sky);
+      int images = 0;
+      for (int k = 0; k < 20; ++k) {
+        const SceneStar star = star_of({random_direction(random)}, 1, 6000);
+        std::vector<StarImage> found = all_images(finder, SceneStars({star}));
+        finder.append(star, found);
+        for (const StarImage& image : found) {
+          const PixelPosition pixel{image.x + 1.0, image.y + 1.0};
+          const ViewRay ray = scene.tracer.trace(direction_at(show.projection, pixel));
+          if (!(ray.longer() < 20)) continue;
+          ++images;
+          EXPECT_EQ(ray.sky, sky);
+          EXPECT_LT((ray.sky_direction - star.direction.v).length(), 1e-3 * (1 + ray.longer()));
+        }
+      }
+      EXPECT_GT(images, 15) << l;
+    }
+  }
+}
+
 // A list of stars has the images of its stars, down to the limit of magnitude.
 TEST(StarImageFinder, OfManyStarsAreThoseOfEach) {
   std::mt19937 random(3);
