@@ -18,7 +18,8 @@ namespace {
 // near the edge, where fewer intervals are as accurate.
 constexpr int kIntervals = 512, kIntervalsBesideEdge = 64;
 // So many pairs have curves at least.  In a long cylinder or a wide throat the images of many more
-// are hardly fainter than the first, and those down to kFaint of its light have curves, too.
+// are hardly fainter than the first, and those down to kFaint of its light have curves, too.  Where
+// the first are brighter than their sources, as at an inner horizon, that is kFaint of the sources'.
 constexpr int kPairs = 4, kMostPairs = 256;
 constexpr double kFaint = 1e-8;
 
@@ -109,7 +110,7 @@ SphericalPoints::SphericalPoints(std::vector<const SkyTable*> tables,
     return most;
   };
   add_pair(0, kIntervals);
-  const double faint = kFaint * brings(0);
+  const double faint = kFaint * std::min(1.0, brings(0));
   for (int pair = 1; pair < kPairs || (pair < kMostPairs && brings(pair) > faint); ++pair)
     add_pair(pair, kIntervalsBesideEdge);
 }
