@@ -55,14 +55,13 @@ M33d sky_axes(const ObserverState& o, SkyRegion sky);
 // Returns the sky of the region that the tetrad belongs to, in a wormhole that of the observer's
 // side.
 inline SkyRegion own_sky(const ObserverState& o) {
-  if (!o.spacetime.is<Wormhole>()) return own_sky(o.tetrad);
+  if (!o.spacetime.is<Wormhole>()) return own_sky(o.tetrad, o.universe);
   return o.region == Region::kIII ? SkyRegion::kIII : SkyRegion::kI;
 }
 
 inline PerSky<bool> seen_skies(const ObserverState& o) {
   return o.spacetime.seen_skies(o.region, o.tetrad, o.universe, o.r);
 }
-inline SkyRegion own_sky(const ObserverState& o) { return own_sky(o.tetrad, o.universe); }
 
 // Says whether there is an observer at rest in r at the same place.
 inline bool has_rest(const ObserverState& o) { return o.spacetime.lapse_squared(o.r) > 0; }
