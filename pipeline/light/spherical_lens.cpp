@@ -76,11 +76,12 @@ std::vector<V3d> SphericalLens::far_ends(SkyRegion sky) const {
 // table's coordinate x, and in the angle about the axis.
 std::vector<SkySample> SphericalLens::divided(SkyRegion sky, int along, int around) const {
   std::vector<SkySample> samples;
-  for (const SkyTable* table : optics_->tables_of(sky)) divide(*table, along, around, samples);
+  for (const SkyTable* table : optics_->tables_of(sky))
+    divide(*table, axes_[sky], along, around, samples);
   return samples;
 }
 
-void SphericalLens::divide(const SkyTable& table, int along, int around,
+void SphericalLens::divide(const SkyTable& table, const M33d& axes, int along, int around,
                            std::vector<SkySample>& samples) const {
   const double d_alpha = 4 * std::atan(table.x_max() / 2) / along;
   const double d_psi = 2 * std::numbers::pi / around;
@@ -99,7 +100,7 @@ void SphericalLens::divide(const SkyTable& table, int along, int around,
     for (int j = 0; j < around; ++j) {
       const V3d e(0, std::cos((j + 0.5) * d_psi), std::sin((j + 0.5) * d_psi));
       sample.direction = V3d(-optics_->inward * cosine, 0, 0) + e * sine;
-      sample.sky_direction = apply(axes_[sky], V3d(std::cos(phi), 0, 0) + e * std::sin(phi));
+      sample.sky_direction = apply(axes, V3d(std::cos(phi), 0, 0) + e * std::sin(phi));
       samples.push_back(sample);
     }
   }

@@ -31,7 +31,8 @@ class SphericalLens : public Lens {
 
  private:
   ViewCircle circle_at(const HalfAngle& alpha) const;
-  void divide(const SkyTable& table, int along, int around, std::vector<SkySample>& samples) const;
+  void divide(const SkyTable& table, const M33d& axes, int along, int around,
+              std::vector<SkySample>& samples) const;
 
   std::shared_ptr<const HoleOptics> optics_;
   PerSky<M33d> axes_;  // those of region IV are those of I
