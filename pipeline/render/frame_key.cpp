@@ -133,6 +133,11 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   add_sky(three, show.sky[SkyRegion::kIII]);
   sky_three_ = three.hex();
   add_segments();
+  if (show.spacetime.leads_on()) {
+    Digest next;
+    add_sky(next, show.sky[SkyRegion::kNext]);
+    sky_next_ = next.hex();
+  }
   // A black singularity leaves its key empty, as in shows that do not name it.
   if (std::holds_alternative<BlackSky>(show.sky[SkyRegion::kIV].background)) return;
   Digest four;
@@ -148,7 +153,8 @@ std::optional<std::filesystem::path> FrameKeys::touched_asset() const {
 
 bool FrameKeys::same_assets(const FrameKeys& other) const {
   return common_ == other.common_ && sky_three_ == other.sky_three_ &&
-         sky_four_ == other.sky_four_ && own_skies_ == other.own_skies_;
+         sky_four_ == other.sky_four_ && sky_next_ == other.sky_next_ &&
+         own_skies_ == other.own_skies_;
 }
 
 // Titles and overlays are drawn over the mean of all instants, so that they enter the key once.
@@ -184,12 +190,17 @@ std::string FrameKeys::instant(const FrameState& state) const {
     digest.add(sky_three_);
     add_settings(digest, state.settings.sky[SkyRegion::kIII]);
   }
+  if (seen_skies(o)[SkyRegion::kNext]) {
+    digest.add("next").add(sky_next_);
+    add_settings(digest, state.settings.sky[SkyRegion::kNext]);
+  }
   if (o.spacetime.is<Schwarzschild>()) {
     digest.add(sky_four_);
     add_settings(digest, state.settings.sky[SkyRegion::kIV]);
   }
   // Stars that race around the ring are drawn by how far the sky turns until the next frame.
-  const bool starry = show_.sky[SkyRegion::kI].stars || show_.sky[SkyRegion::kIII].stars;
+  const bool starry = std::ranges::any_of(
+      kExteriorSkies, [this](SkyRegion sky) { return show_.sky[sky].stars.has_value(); });
   if (starry && !is_flat(o) && !(show_.exposure.shutter > 0)) {
     for (const double v : {state.sky_turn.x, state.sky_turn.y, state.sky_turn.z}) digest.add(v);
   }

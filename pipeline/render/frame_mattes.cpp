@@ -19,7 +19,10 @@ std::vector<Matte> mattes_of(const Show& show) {
     for (std::size_t k = 0; k < show.bodies.size(); ++k)
       mattes.push_back({fmt::format("body_{}", k + 1)});
   if (!data.mattes) return mattes;
-  for (const char* name : {"sky_I", "sky_III", "silhouette"}) mattes.push_back({name});
+  for (const SkyRegion sky : kExteriorSkies)
+    if (sky != SkyRegion::kNext || show.spacetime.leads_on())
+      mattes.push_back({fmt::format("sky_{}", name_of(sky))});
+  mattes.push_back({"silhouette"});
   for (int order = 0; show.disc && order < PlaneImages::kOrders; ++order)
     mattes.push_back({fmt::format("disc_{}", order)});
   return mattes;
@@ -39,13 +42,17 @@ void MattePass::fill_rows(int first, int end, const float* rgb, SplatBuffer& spl
   for (std::size_t body = 0; body < bodies_.size(); ++body)
     fill_body(body, first, end, rgb, splats, mattes[body].covered.data() + first * width);
   if (mattes.size() == bodies_.size()) return;
+  const auto skies = static_cast<std::size_t>(std::ranges::count_if(
+      mattes, [](const Matte& matte) { return matte.name.starts_with("sky_"); }));
   for (int row = first; row < end; ++row) {
     std::vector<float*> covered;
     for (std::size_t k = bodies_.size(); k < mattes.size(); ++k)
       covered.push_back(mattes[k].covered.data() + row * width);
     for (float* const values : covered) std::fill_n(values, width, 0.0f);
-    fill_skies(row, covered);
-    if (disc_) disc_->fill_orders(row, {covered.begin() + 3, covered.end()});
+    // The skies are followed by the silhouette, and that by the orders of the disc.
+    const std::span<float* const> all(covered);
+    fill_skies(row, all.first(skies + 1));
+    if (disc_) disc_->fill_orders(row, all.subspan(skies + 1));
   }
 }
 
@@ -64,17 +71,21 @@ void MattePass::fill_body(std::size_t body, int first, int end, const float* rgb
   }
 }
 
-void MattePass::fill_skies(int row, const std::vector<float*>& covered) const {
+void MattePass::fill_skies(int row, std::span<float* const> covered) const {
   const Projection& projection = scene_.projection();
   const ColumnRange inside = inside_columns(projection, row);
   for (int column = inside.first; column <= inside.last; ++column) {
     const PixelPosition pixel{column + 1.0, row + 1.0};
     const PerSky<double> parts =
         borders_.parts(direction_at(projection, pixel), pixel_angle(projection, pixel), seen_);
-    const double skies = parts[SkyRegion::kI] + parts[SkyRegion::kIII];
-    covered[0][column] = static_cast<float>(parts[SkyRegion::kI]);
-    covered[1][column] = static_cast<float>(parts[SkyRegion::kIII]);
-    covered[2][column] = static_cast<float>(std::max(1 - skies, 0.0));
+    double skies = 0;
+    std::size_t matte = 0;
+    for (; matte < covered.size() - 1; ++matte) {
+      const double part = parts[kExteriorSkies[matte]];
+      skies += part;
+      covered[matte][column] = static_cast<float>(part);
+    }
+    covered[matte][column] = static_cast<float>(std::max(1 - skies, 0.0));
   }
 }
 

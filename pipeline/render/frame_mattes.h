@@ -32,7 +32,8 @@ class MattePass {
  private:
   void fill_body(std::size_t body, int first, int end, const float* rgb, SplatBuffer& splats,
                  float* covered) const;
-  void fill_skies(int row, const std::vector<float*>& covered) const;
+  // Fills in the mattes of the skies, and that of the silhouette after them.
+  void fill_skies(int row, std::span<float* const> covered) const;
 
   const FrameScene& scene_;
   const DiscPass* disc_;

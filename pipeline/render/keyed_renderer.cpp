@@ -66,7 +66,7 @@ void KeyedRenderer::render_once(const FrameState& state, LayeredFrame<T>& frame)
     renderer_->render(state, frame, &times);
     if (explain_)
       say(fmt::format("frame {}: region {}, r = {:.9g} M\n{}", state.frame,
-                      region_name(state.observer.region), state.observer.r,
+                      region_name(state.observer.region, state.observer.universe), state.observer.r,
                       describe(plan_frame(show_, state), times)));
   } catch (const std::runtime_error& error) {
     if (dynamic_cast<const InputError*>(&error)) throw;

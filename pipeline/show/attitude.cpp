@@ -17,7 +17,7 @@ namespace {
 // axis it is outward, R.
 V3d up_across(const V3d& target, const ObserverState& o) {
   const V3d north = is_flat(o) ? apply_transposed(o.sky_from_tetrad, V3d(0, 0, 1)) : V3d(0, -1, 0);
-  const V3d outward(1, 0, 0);
+  const V3d outward = column(base_axes(o), 0);
   const V3d up = target.cross(north).length() > 1e-3 ? north : outward;
   return (up - target * up.dot(target)).normalized();
 }
@@ -102,13 +102,23 @@ V3d direct_image(const Body& body, const ObserverState& o) {
 // This is the inverse of the rotations of euler_axes().  Z = (cos theta, cos phi sin theta,
 // sin phi sin theta) in (R, Theta, Phi), and X is at the angle psi from what the first two
 // rotations make of Theta.
-EulerAngles euler_angles_of(const M33d& tetrad_from_camera) {
-  const V3d x = column(tetrad_from_camera, 0), z = column(tetrad_from_camera, 2);
+EulerAngles euler_angles_of(const M33d& base_from_camera) {
+  const V3d x = column(base_from_camera, 0), z = column(base_from_camera, 2);
   const double sine = std::hypot(z.y, z.z), theta = std::atan2(sine, z.x),
                phi = sine > 0 ? std::atan2(z.z, z.y) : 0;
   const V3d a1(0, std::cos(phi), std::sin(phi)), b1(0, -std::sin(phi), std::cos(phi));
   const V3d a2 = a1 * std::cos(theta) - V3d(1, 0, 0) * std::sin(theta);
   return {phi, theta, std::atan2(x.dot(b1), x.dot(a2))};
+}
+
+M33d base_axes(const ObserverState& observer) {
+  const M33d tetrad;
+  if (!observer.spacetime.is<ChargedHole>()) return tetrad;
+  const V3d r(1, 0, 0), seen = to_observer(observer.celerity, r).direction -
+                               to_observer(observer.celerity, -r).direction;
+  const V3d axis = r.cross(seen);
+  const double sine = axis.length();
+  return sine > 0 ? turned_by(tetrad, axis * (std::atan2(sine, seen.x) / sine)) : tetrad;
 }
 
 M33d untilted(const M33d& axes, double tilt) { return tilted(axes, -tilt); }
@@ -153,7 +163,7 @@ M33d camera_axes(const Camera& camera, const Projection& projection, const Obser
   const auto target = target_direction(camera.attitude, observer, effects);
   const bool dome = has_zenith(projection);
   if (!target) {
-    const M33d axes = euler_axes(std::get<EulerAngles>(camera.attitude));
+    const M33d axes = base_axes(observer) * euler_axes(std::get<EulerAngles>(camera.attitude));
     return dome ? tilted(axes, camera.dome_tilt) : axes;
   }
   const V3d& f = *target;

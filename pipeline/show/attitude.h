@@ -16,8 +16,16 @@ namespace domefall {
 M33d camera_axes(const Camera& camera, const Projection& projection, const ObserverState& observer,
                  const Effects& effects = {});
 
-// Returns the angles of a camera that is turned by them, and for a dome that does not lean.
-EulerAngles euler_angles_of(const M33d& tetrad_from_camera);
+// Returns the axes that Euler angles and the cameras of other programs count from, as columns in the
+// boosted tetrad.  They are its R, Theta and Phi.  Near a charge R stands midway between the
+// directions in which light from outside and from the hole comes along R, in the plane of both.  These
+// do not depend on the tetrad, so that nothing turns where an observer inside goes from one to the
+// other.
+M33d base_axes(const ObserverState& observer);
+
+// Returns the angles of a camera that is turned by them, and for a dome that does not lean, from its
+// axes along those of base_axes().
+EulerAngles euler_angles_of(const M33d& base_from_camera);
 
 // Returns the axes of a dome that stands upright where another leans to its front by `tilt`
 // (radians), which a show adds again to the angles of its camera.

@@ -1,5 +1,6 @@
 #include "pipeline/show/camera_world.h"
 
+#include "pipeline/show/attitude.h"
 #include "projections/projection.h"
 
 namespace domefall {
@@ -20,19 +21,23 @@ M33d picture_axes(const Projection& projection) {
                          : from_columns({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
 }
 
+M33d along_base(const ObserverState& observer) {
+  return base_axes(observer).transposed() * observer.tetrad_from_camera;
+}
+
 }  // namespace
 
 M33d world_from_camera(const ObserverState& observer, const Projection& projection) {
-  return in_other(observer.tetrad_from_camera * picture_axes(projection));
+  return in_other(along_base(observer) * picture_axes(projection));
 }
 
 M33d world_from_audience(const FrameState& state) {
   // Right, front and zenith become right, zenith and back.
   const M33d turned = from_columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
-  return in_other(state.observer.tetrad_from_camera * state.camera_from_audience * turned);
+  return in_other(along_base(state.observer) * state.camera_from_audience * turned);
 }
 
-M33d tetrad_from_camera(const M33d& world_from_camera, const Projection& projection) {
+M33d base_from_camera(const M33d& world_from_camera, const Projection& projection) {
   return in_other(world_from_camera) * picture_axes(projection).transposed();
 }
 

@@ -9,10 +9,11 @@
 namespace domefall {
 namespace {
 
-// The rain and the outgoing tetrad of one sky are both regular only outside its horizon.  r* is
-// infinite there and in flat space.
+// The rain and the outgoing tetrad of one sky are both regular only outside its horizon, and inside
+// an inner one.  r* is infinite there and in flat space.
 bool has_both_tetrads(const Joint& joint) {
-  return !joint.spacetime.is_flat() && joint.r > joint.spacetime.horizon();
+  return !joint.spacetime.is_flat() &&
+         (joint.r > joint.spacetime.horizon() || is_within_inner_horizon(joint.region));
 }
 
 // Returns what must be added to the null time of a trajectory, so that it goes on from the joint.
@@ -27,6 +28,13 @@ DoubleDouble null_offset(const Joint& joint, const OrbitPoint& start) {
   return reached - start.null_time;
 }
 
+// Returns the universe in which an orbit goes on from the joint.  Above the inside of an inner
+// horizon lies region IV of the next universe.
+int universe_into(const Joint& joint, const OrbitPoint& start) {
+  return joint.universe + (is_within_inner_horizon(joint.region) && start.region == Region::kIV) -
+         (joint.region == Region::kIV && is_within_inner_horizon(start.region));
+}
+
 OrbitPoint point_of(const Segment& s, const ProperTime& tau) {
   return placed(point_at(s.trajectory, tau), s.placement);
 }
@@ -38,7 +46,8 @@ Joint moved(Joint joint, const Segment& s, const OrbitPoint& point) {
   joint.axes = moved_on(turned(joint.axes, s.placement.turn), point.azimuth - start.azimuth);
   joint.azimuth += point.azimuth - start.azimuth;
   joint.null_time = point.null_time + null_offset(joint, start);
-  joint.tetrad = point.tetrad, joint.r = point.r;
+  joint.universe = universe_into(joint, start) + point.universe - start.universe;
+  joint.region = point.region, joint.tetrad = point.tetrad, joint.r = point.r;
   return joint;
 }
 
@@ -110,9 +119,11 @@ ProperTime proper_time_at(const Segment& s, double part) {
 }
 
 Joint first_joint(const Show& show, const Segment& first) {
+  const OrbitPoint start = point_of(first, first.timing.tau_begin);
   Joint joint{.axes = place_tetrad(show.hole_at, show.heading, 0),
               .spacetime = show.spacetime,
-              .tetrad = point_of(first, first.timing.tau_begin).tetrad};
+              .region = start.region,
+              .tetrad = start.tetrad};
   return joint_into(joint, first);
 }
 
@@ -126,7 +137,8 @@ Joint joint_into(const Joint& reached, const Segment& next) {
   Joint joint = reached;
   joint.axes = next.placement.beginning->axes;
   joint.null_time = next.placement.beginning->null_time;
-  joint.tetrad = point.tetrad, joint.r = point.r;
+  joint.universe = universe_into(reached, point);
+  joint.region = point.region, joint.tetrad = point.tetrad, joint.r = point.r;
   return joint;
 }
 
@@ -162,7 +174,7 @@ ObserverState observer_at(const Show& show, int segment, double part) {
   ObserverState o;
   o.spacetime = show.spacetime;
   o.region = point.region, o.tetrad = point.tetrad, o.r = point.r;
-  o.universe = point.universe, o.l = point.l;
+  o.universe = joint.universe, o.l = point.l;
   o.proper_time = double(tau);
   o.celerity = point.celerity;
   o.null_time = double(joint.null_time);

@@ -236,10 +236,11 @@ inline constexpr std::pair<std::string_view, Amplification> kAmplifications[] = 
 
 // ---- the whole ----
 
-// A MarkerEvent is the first instant at which the observer is at r or, without r, nearest to the
-// hole on a way that leads away from it again.
+// A MarkerEvent is the first instant at which the observer is at r, on a leg if one is given, or,
+// without r, nearest to the hole on a way that leads away from it again.
 struct MarkerEvent {
   std::optional<double> r;  // M
+  std::optional<Leg> leg{};
 };
 
 // A Marker is an instant of the show that bears a name.
@@ -281,7 +282,9 @@ struct Joint {
   double azimuth = 0;
   DoubleDouble null_time{};
   Spacetime spacetime;  // of the show
+  Region region = Region::kI;
   Tetrad tetrad = Tetrad::kRain;
+  int universe = 0;  // of those that follow each other through a charged hole
   double r = kFlatSpace;
 };
 

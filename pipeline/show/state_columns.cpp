@@ -36,7 +36,8 @@ std::array<StateCell, kStateColumns.size()> state_cells(const FrameState& state)
           all(z.x),
           all(z.y),
           all(z.z),
-          all(o.null_time)};
+          all(o.null_time),
+          o.universe};
 }
 
 }  // namespace domefall

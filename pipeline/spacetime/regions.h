@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace domefall {
 
@@ -14,6 +15,15 @@ enum class Region { kI, kII, kIII, kIV, kV, kVI };
 inline const char* region_name(Region region) {
   constexpr const char* kNames[] = {"I", "II", "III", "IV", "V", "VI"};
   return kNames[static_cast<int>(region)];
+}
+
+// Returns the name of a region in one of the universes that follow each other through a charged hole:
+// those of region I are I, I+1, I+2 and so on.
+inline std::string region_name(Region region, int universe) {
+  std::string name = region_name(region);
+  if (universe > 0) name += '+';
+  if (universe != 0) name += std::to_string(universe);
+  return name;
 }
 
 // A Tetrad is a frame that velocities and directions are given against.  It is radial free fall,
@@ -43,6 +53,15 @@ constexpr bool is_outgoing(Tetrad t) {
 // and the reverse.
 constexpr bool is_mirrored(Tetrad t) {
   return t == Tetrad::kRainOfThree || t == Tetrad::kOutgoingToThree;
+}
+constexpr bool is_outside(Region region) { return region == Region::kI || region == Region::kIII; }
+constexpr bool is_within_inner_horizon(Region region) {
+  return region == Region::kV || region == Region::kVI;
+}
+// Says whether two regions lie on different sides of a horizon, so that a place on it may count as
+// either's.
+constexpr bool are_apart(Region a, Region b) {
+  return is_outside(a) != is_outside(b) || is_within_inner_horizon(a) != is_within_inner_horizon(b);
 }
 // Says whether a region has a tetrad.  Rain is found outside and beyond the future horizon, the
 // outgoing frame outside and before the past one, and both inside an inner horizon.

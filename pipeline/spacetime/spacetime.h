@@ -114,6 +114,12 @@ class Spacetime {
     return std::visit([r](const auto& kind) { return kind.tortoise(r); }, kind_);
   }
 
+  // Says whether universes follow each other through a hole.
+  bool leads_on() const {
+    const auto* hole = std::get_if<ChargedHole>(&kind_);
+    return hole && !hole->is_naked();
+  }
+
   // Says which skies of exteriors are seen at r of a region, where light is bent.
   PerSky<bool> seen_skies(Region region, Tetrad tetrad, int universe, double r) const {
     return std::visit(

@@ -22,9 +22,9 @@ Json rounded_json(const std::optional<double>& value) {
   return value ? rounded_json(*value) : Json();
 }
 
-Json region_names(const std::vector<Region>& regions) {
+Json region_names(const std::vector<Visit>& visits) {
   Json names = Json::array();
-  for (const Region region : regions) names.push_back(region_name(region));
+  for (const Visit& v : visits) names.push_back(region_name(v.region, v.universe));
   return names;
 }
 
@@ -49,7 +49,7 @@ Json json_of(const SegmentSurvey& s, const Spacetime& spacetime) {
                {"to_r", rounded_json(s.r_end)},
                {"closest", flat ? Json() : extreme(s.closest)}};
   if (!flat) {
-    json["regions"] = region_names(s.regions);
+    json["regions"] = region_names(s.visits);
     json["proper_time_m"] = rounded_json(s.proper_time);
   }
   json["proper_time_s"] = rounded_json(s.proper_time * spacetime.seconds_per_m());
@@ -64,8 +64,8 @@ Json json_of(const SegmentJoint& j) {
           {"dissolve_s", rounded_json(j.dissolve_s)},
           {"r_before", rounded_json(j.r_before)},
           {"r_after", rounded_json(j.r_after)},
-          {"region_before", region_name(j.region_before)},
-          {"region_after", region_name(j.region_after)},
+          {"region_before", region_name(j.before.region, j.before.universe)},
+          {"region_after", region_name(j.after.region, j.after.universe)},
           {"velocity_jump", rounded_json(j.speed)},
           {"rate_before", rounded_json(j.rate_before)},
           {"rate_after", rounded_json(j.rate_after)}};
@@ -152,7 +152,7 @@ Json json_of(const CheckedSky& sky) {
 
 void add_whole(const CheckReport& report, Json& json) {
   const ShowSurvey& survey = report.survey;
-  if (!report.show.spacetime.is_flat()) json["regions"] = region_names(survey.regions);
+  if (!report.show.spacetime.is_flat()) json["regions"] = region_names(survey.visits);
   json["closest_r"] = extreme(survey.closest);
   const double celerity = survey.fastest ? survey.fastest->value : 0;
   const double gamma = std::hypot(1.0, celerity);

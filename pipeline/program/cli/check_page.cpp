@@ -86,8 +86,9 @@ class Page {
                               sky.faintest));
       if (sky.planets_year) text += fmt::format(", and the planets of {}", *sky.planets_year);
       if (text.empty()) continue;
-      const bool is_first = sky.region == SkyRegion::kI;
-      line(is_first ? "sky" : fmt::format("region {}", name_of(sky.region)),
+      line(sky.region == SkyRegion::kI      ? "sky"
+           : sky.region == SkyRegion::kNext ? "next sky"
+                                            : fmt::format("region {}", name_of(sky.region)),
            text + segments_text(sky));
       if (!sky.taken.empty()) line("", sky.map + " is taken as: " + sky.taken);
     }
@@ -106,12 +107,12 @@ class Page {
     line("effects", text + kAmplified[static_cast<int>(e.amplification)] + " amplified");
   }
 
-  static std::string regions_text(const std::vector<Region>& regions) {
+  static std::string regions_text(const std::vector<Visit>& visits) {
     constexpr std::size_t kMost = 12;
-    std::vector<std::string_view> names;
-    for (std::size_t k = 0; k < regions.size() && k < kMost; ++k)
-      names.emplace_back(region_name(regions[k]));
-    if (regions.size() > kMost) names.emplace_back("...");
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < visits.size() && k < kMost; ++k)
+      names.push_back(region_name(visits[k].region, visits[k].universe));
+    if (visits.size() > kMost) names.emplace_back("...");
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
@@ -146,7 +147,7 @@ class Page {
       if (s.closest.value < std::min(s.r_begin, s.r_end) * (1 - 1e-6))
         text += fmt::format(", closest {:.6g} {} at {:.5g} s", s.closest.value, unit(),
                             s.closest.time_s);
-      line("", text + "; region " + regions_text(s.regions));
+      line("", text + "; region " + regions_text(s.visits));
       text.clear();
     }
     line("", text + proper_time(s.proper_time) + " of proper time, " + rate(s));
@@ -159,9 +160,9 @@ class Page {
 
   void joint(const SegmentJoint& j) {
     std::string changes;
-    if (j.region_before != j.region_after)
-      add(changes, fmt::format("region {} to {}", region_name(j.region_before),
-                               region_name(j.region_after)));
+    if (j.before != j.after)
+      add(changes, fmt::format("region {} to {}", region_name(j.before.region, j.before.universe),
+                               region_name(j.after.region, j.after.universe)));
     if (j.place_jumps() && j.r_before != j.r_after)
       add(changes, fmt::format("r jumps from {:.6g} {} to {:.6g} {}", j.r_before, unit(), j.r_after,
                                unit()));
@@ -190,7 +191,7 @@ class Page {
 
   void whole() {
     text_ += "\nthe whole show\n";
-    if (!show_.spacetime.is_flat()) line("regions", regions_text(r_.survey.regions));
+    if (!show_.spacetime.is_flat()) line("regions", regions_text(r_.survey.visits));
     black();
     if (const auto& e = r_.survey.closest)
       line("closest", fmt::format("r = {:.6g} {}, ", e->value, unit()) + place(*e));

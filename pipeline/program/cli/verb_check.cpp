@@ -18,18 +18,11 @@
 namespace domefall {
 namespace {
 
-// Says whether a show sees the sky of a region, from there or from inside the hole.
-bool is_seen(const Show& show, const ShowSurvey& survey, Region region) {
-  if (show.spacetime.is<Wormhole>()) return true;
-  return std::ranges::any_of(survey.regions,
-                             [region](Region r) { return r == region || r == Region::kII; });
-}
-
 // Loads all that the frames will read, since a file may be damaged though none of the measured
 // frames shows it.
 void load_skies(const Show& show, const ShowSurvey& survey, Renderer& renderer) {
-  if (is_seen(show, survey, Region::kI)) renderer.load_sky(SkyRegion::kI);
-  if (is_seen(show, survey, Region::kIII)) renderer.load_sky(SkyRegion::kIII);
+  for (const SkyRegion sky : kExteriorSkies)
+    if (survey.skies[sky]) renderer.load_sky(sky);
   if (show.spacetime.is<Schwarzschild>()) renderer.load_sky(SkyRegion::kIV);
 }
 
@@ -78,6 +71,7 @@ void check(const std::string& file, const std::string& out, bool json) {
   }
   for (const ShowWarning& warning : axis.warnings()) report.warnings.push_back(warning);
   for (const ShowWarning& warning : bodies.warnings()) report.warnings.push_back(warning);
+  for (const ShowWarning& warning : horizon_warnings(show)) report.warnings.push_back(warning);
   for (const ShowWarning& warning : body_warnings(show)) report.warnings.push_back(warning);
   for (const ShowWarning& warning : title_warnings(show)) report.warnings.push_back(warning);
   report.light = survey_light(show, renderer, grade);

@@ -74,7 +74,8 @@ void print_effects(const Effects& effects, const ViewRay& ray, double width) {
 
 void print_text(const Probed& p) {
   const ObserverState& observer = p.state.observer;
-  fmt::print("observer     region {}, r = {:.9g} M\n", region_name(observer.region), observer.r);
+  fmt::print("observer     region {}, r = {:.9g} M\n",
+             region_name(observer.region, observer.universe), observer.r);
   if (!p.inside()) fmt::print("pixel        outside the dome\n");
   for (const std::string& title : p.titles) fmt::print("title        {}\n", printable(title));
   for (const DiscAtPixel& disc : p.disc)
@@ -165,7 +166,8 @@ void print_probe_json(const Probed& p) {
   Json json = {{"frame", p.state.frame},
                {"pixel", {p.pixel.i, p.pixel.j}},
                {"inside", p.inside()},
-               {"region", is_flat(observer) ? Json() : Json(region_name(observer.region))},
+               {"region",
+                is_flat(observer) ? Json() : Json(region_name(observer.region, observer.universe))},
                {"r", observer.r},
                {"sky", p.ray.known ? Json(name_of(p.ray.sky)) : Json()},
                {"direction", {to.x, to.y, to.z}},

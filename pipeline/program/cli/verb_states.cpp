@@ -47,6 +47,7 @@ void print_csv(const Show& show, const std::vector<int>& frames) {
       " (R, Theta, Phi)\n"
       "# azimuth_deg: swept in the planes of its orbits since the start of the show\n"
       "# null_time in M: v = t + r* where the tetrad is rain, u = t - r* where it is outgoing\n"
+      "# universe: of those that follow each other through a charged hole, from 0\n"
       "{}\n",
       fmt::join(kStateColumns, ","));
   std::fputs(head.c_str(), stdout);
@@ -175,7 +176,7 @@ std::string camera_prim(const Show& show, const std::vector<FrameState>& states)
     return fmt::format("{:.17g}", state.observer.r);
   });
   text += animated("custom token domefall:region", states, [](const FrameState& state) {
-    return fmt::format("\"{}\"", region_name(state.observer.region));
+    return fmt::format("\"{}\"", region_name(state.observer.region, state.observer.universe));
   });
   return "def Camera \"Camera\"\n{\n" + indented(text, 4) + "}\n";
 }

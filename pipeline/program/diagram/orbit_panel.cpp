@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -122,39 +124,63 @@ void draw_circles(Svg& page, const PageBox& box, const Plane& plane, const Path&
   page.frame(box, {"#8d94a1", 1});
 }
 
-void draw_hole(Svg& page, const Plane& plane) {
+// The hole is a disc up to its horizon, and an inner horizon a light ring on it.
+void draw_hole(Svg& page, const Plane& plane, const Spacetime& spacetime) {
   constexpr double kVisible = 2;  // pixels
   const PagePoint centre{plane.x(0), plane.y(0)};
   const double pixels = plane.x(1) - plane.x(0);
-  page.circle(centre, std::max(2 * pixels, kVisible), "#16181d");
-  if (pixels > 1) {
-    Stroke dashed{"#16181d", 1.2, "5 4"};
-    page.circle(centre, 3 * pixels, "none", dashed);
+  if (!spacetime.is<Wormhole>())
+    page.circle(centre, std::max(spacetime.horizon() * pixels, kVisible), "#16181d");
+  if (!(pixels > 1)) return;
+  const Stroke dashed{"#16181d", 1.2, "5 4"}, light{"#8d94a1", 1.2};
+  for (const RadiusMark& mark : radius_marks(spacetime))
+    if (!mark.is_horizon)
+      page.circle(centre, mark.r * pixels, "none", dashed);
+    else if (mark.r < spacetime.horizon())
+      page.circle(centre, mark.r * pixels, "none", light);
+}
+
+// Returns what the disc and the circles are, such as "Disc: the hole, r = 2; dashed: light circle, r =
+// 3."
+std::string note_of(const Spacetime& spacetime) {
+  std::string note = spacetime.horizon() > 0
+                         ? "Disc: the hole, r = " + number_text(spacetime.horizon())
+                     : spacetime.is<Wormhole>() ? ""
+                                                : "Dot: the singularity";
+  for (const RadiusMark& mark : radius_marks(spacetime)) {
+    if (mark.r == spacetime.horizon()) continue;
+    note += note.empty() ? "" : "; ";
+    note += (mark.is_horizon ? "ring: "
+             : note.empty()  ? "Dashed: "
+                             : "dashed: ") +
+            mark.name + ", r = " + number_text(mark.r);
   }
+  return note + ".";
 }
 
 }  // namespace
 
-PlaceOnPage draw_orbit_panel(Svg& page, const PageBox& box, const Path& path) {
+PlaceOnPage draw_orbit_panel(Svg& page, const PageBox& box, const Spacetime& spacetime,
+                             const Path& path) {
   const Plane plane = frame_of(box, path);
   const bool is_even = plane.even_to == HUGE_VAL;
   draw_heading(page, box,
-               is_even
-                   ? "Orbit from above (M)"
-                   : "Orbit from above (M), logarithmic beyond r = " + number_text(plane.even_to));
+               is_even ? fmt::format("Orbit from above ({})", unit_of(spacetime))
+                       : fmt::format("Orbit from above ({}), logarithmic beyond r = {}",
+                                     unit_of(spacetime), number_text(plane.even_to)));
   page.begin_group("orbit");
   if (is_even)
     draw_axes(page, box, plane.x, plane.y, 7, 7);
   else
     draw_circles(page, box, plane, path);
-  draw_hole(page, plane);
+  draw_hole(page, plane, spacetime);
   PlaceOnPage place = [plane](const PathPoint& p) {
     const PagePoint at = plane.in_plane(p);
     return PagePoint{plane.x(at.x), plane.y(at.y)};
   };
   draw_path(page, path, place, is_joined_in_plane);
   draw_key(page, {box.left, box.bottom + 44}, path);
-  std::string note = "Disc: the hole, r = 2; dashed: light circle, r = 3.";
+  std::string note = note_of(spacetime);
   if (path.has_gaps_in_plane)
     note += " Of many turns the first and last " + number_text(kTurnsDrawn) + ".";
   page.text({box.left, box.bottom + 66}, note, {12, "#5a606c"});

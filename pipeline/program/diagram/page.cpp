@@ -20,6 +20,10 @@ std::string subtitle(const Show& show) {
                                  show.file.filename().string(), number_text(seconds), frames,
                                  number_text(show.frames_per_second));
   if (show.spacetime.is_flat()) return text;
+  if (const auto* wormhole = std::get_if<Wormhole>(&show.spacetime.kind()))
+    return fmt::format("{}  \u00b7  throat of {} km", text, number_text(wormhole->radius_km));
+  if (const auto* hole = std::get_if<ChargedHole>(&show.spacetime.kind()))
+    text += fmt::format("  \u00b7  charge {}", number_text(hole->charge));
   return fmt::format("{}  \u00b7  {} solar masses, 1 M = {} s", text,
                      number_text(*show.spacetime.solar_masses()),
                      number_text(show.spacetime.seconds_per_m()));
@@ -33,7 +37,10 @@ void draw_title(Svg& page, const Show& show) {
   page.text({kLeft, 80}, shortened(subtitle(show), kSmall, kRoom), {kSmall, "#5a606c"});
 }
 
-constexpr PageBox kTimes{kLeft, 132, kPageWidth - 150, 372};
+// The names of radii stand to the right of the box.  Those of a charge are longer.
+PageBox times_box(const Spacetime& spacetime) {
+  return {kLeft, 132, kPageWidth - (spacetime.is<ChargedHole>() ? 190 : 150), 372};
+}
 
 struct DrawnPage {
   std::string svg;
@@ -42,17 +49,20 @@ struct DrawnPage {
 };
 
 DrawnPage drawn_page(const Show& show, const Path& path) {
-  const double height = show.spacetime.is_flat() ? 490 : 1010;
+  const bool flat = show.spacetime.is_flat(), kruskal = show.spacetime.is<Schwarzschild>();
+  const PageBox diagram = flat || kruskal ? PageBox{620, 506, 1340, 866}
+                                          : blocks_box({700, 506}, 560, show.spacetime, path);
+  const double height = flat ? 490 : std::max(1010.0, diagram.bottom + 84);
   Svg page(kPageWidth, height);
   draw_title(page, show);
   std::vector<PlaceOnPage> places;
-  if (!show.spacetime.is_flat()) {
-    places.push_back(draw_radius_panel(page, kTimes, show, path));
-    places.push_back(draw_orbit_panel(page, {kLeft, 466, kLeft + 460, 926}, path));
-    if (show.spacetime.is<Schwarzschild>())
-      places.push_back(draw_penrose_panel(page, {620, 506, 1340, 866}, path));
+  if (!flat) {
+    places.push_back(draw_radius_panel(page, times_box(show.spacetime), show, path));
+    places.push_back(draw_orbit_panel(page, {kLeft, 466, kLeft + 460, 926}, show.spacetime, path));
+    places.push_back(kruskal ? draw_penrose_panel(page, diagram, path)
+                             : draw_blocks_panel(page, diagram, show.spacetime, path));
   } else {
-    places.push_back(draw_speed_panel(page, kTimes, show, path));
+    places.push_back(draw_speed_panel(page, times_box(show.spacetime), show, path));
     page.text(
         {kLeft, 448},
         "flat space: no hole. The place does not change, so there is neither a radius, nor an "

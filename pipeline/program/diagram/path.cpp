@@ -9,6 +9,7 @@
 
 #include "pipeline/show/observer_track.h"
 #include "pipeline/show/placement.h"
+#include "pipeline/spacetime/conformal.h"
 #include "trajectories/degree.h"
 
 namespace domefall {
@@ -36,6 +37,7 @@ struct Instant {
   PathPoint point;
   Tetrad tetrad = Tetrad::kRain;
   double null_time = 0;
+  double l = 0;  // of a wormhole
 };
 
 // Instants give the state of the observer at any tick, between the frames too.  It does not depend
@@ -55,9 +57,11 @@ class Instants {
     Instant i;
     i.tetrad = o.tetrad;
     i.null_time = o.null_time;
+    i.l = o.l;
     i.point.time_s = times_[static_cast<std::size_t>(tick.segment)] + part * segment.duration_s;
     i.point.segment = tick.segment;
     i.point.region = o.region;
+    i.point.universe = o.universe;
     i.point.r = o.r;
     i.point.azimuth = std::atan2(place.dot(column(origin_, 2)), place.dot(column(origin_, 0)));
     i.point.swept = point_at(segment.trajectory, proper_time_at(segment, part)).azimuth;
@@ -94,24 +98,37 @@ class Instants {
 
 double sense_of_t(Tetrad t) { return is_mirrored(t) ? -1 : 1; }
 
-// Returns t of an instant away from the horizon, from v = t + r* or u = t - r*.  On the horizon,
-// where r* is infinite, it returns v or u itself.
+// Returns t of an instant away from the horizons, from v = t + r* or u = t - r*.  On a horizon, where
+// r* is infinite, it returns v or u itself.
 double killing_time(const Spacetime& spacetime, const Instant& i) {
-  const double star = i.point.r == spacetime.horizon() ? 0 : spacetime.tortoise(i.point.r);
+  if (spacetime.is<Wormhole>()) return i.null_time - i.l;
+  const double r_star = spacetime.tortoise(i.point.r), star = std::isfinite(r_star) ? r_star : 0;
   return sense_of_t(i.tetrad) * (is_outgoing(i.tetrad) ? i.null_time + star : i.null_time - star);
 }
 
-bool is_within_horizon(Region region) { return region == Region::kII || region == Region::kIV; }
+// These are the points of the diagrams of each kind of spacetime.
+PenrosePoint place_in(const FlatSpace&, const Instant&, double) { return {}; }
+PenrosePoint place_in(const Schwarzschild&, const Instant& i, double time_shift) {
+  return penrose_point(i.point.region, i.tetrad, i.point.r,
+                       i.null_time + sense_of_t(i.tetrad) * time_shift);
+}
+PenrosePoint place_in(const ChargedHole& hole, const Instant& i, double time_shift) {
+  return penrose_point(hole, i.point.region, i.point.universe, i.tetrad, i.point.r,
+                       i.null_time + sense_of_t(i.tetrad) * time_shift);
+}
+PenrosePoint place_in(const Wormhole& wormhole, const Instant& i, double time_shift) {
+  return penrose_point(wormhole, i.null_time - i.l + time_shift, i.l);
+}
 
-// Returns the v or u at which a horizon is crossed between two ticks of a segment, of which one is
-// inside.  It is found by bisection.
+// Returns the v or u at which the outer horizon is crossed between two ticks of a segment, of which
+// one is outside.  It is found by bisection.
 double crossing_time(const Instants& show, Tick a, Tick b) {
   const Region before = show.at(a).point.region;
   while (b.tick - a.tick > 1) {
     const Tick middle{a.segment, a.tick + (b.tick - a.tick) / 2};
     (show.at(middle).point.region == before ? a : b) = middle;
   }
-  const Instant inner = show.at(is_within_horizon(before) ? a : b);
+  const Instant inner = show.at(is_outside(before) ? b : a);
   return sense_of_t(inner.tetrad) * inner.null_time;
 }
 
@@ -119,15 +136,18 @@ std::vector<double> crossings_of(const Instants& show, std::span<const Tick> run
   std::vector<double> times;
   for (std::size_t k = 1; k < run.size(); ++k)
     if (run[k - 1].segment == run[k].segment &&
-        is_within_horizon(show.at(run[k - 1]).point.region) !=
-            is_within_horizon(show.at(run[k]).point.region))
+        is_outside(show.at(run[k - 1]).point.region) != is_outside(show.at(run[k]).point.region))
       times.push_back(crossing_time(show, run[k - 1], run[k]));
   return times;
 }
 
 Origin kruskal_origin(const Instants& show, std::span<const Tick> run) {
   constexpr double kBothVisible = 16;  // M; U at one crossing is then e^4 times U at the other
-  const std::vector<double> crossings = crossings_of(show, run);
+  std::vector<double> crossings;
+  // All of a wormhole is outside, on either side.
+  if (!show.spacetime().is<Wormhole>()) crossings = crossings_of(show, run);
+  // Where universes follow each other, the first passage counts.
+  if (crossings.size() > 2) crossings.resize(2);
   if (crossings.empty())
     return {-killing_time(show.spacetime(), show.at(run[run.size() / 2])), Origin::Centre::kMiddle};
   if (crossings.size() > 1 && std::abs(crossings.back() - crossings.front()) < kBothVisible)
@@ -181,8 +201,9 @@ class Sampler {
     PathPoint p = i.point;
     p.is_in_drawn_turn = p.swept < begin_ || p.swept > end_;
     if (p.r != kFlatSpace)
-      p.penrose = penrose_point(p.region, i.tetrad, p.r,
-                                i.null_time + sense_of_t(i.tetrad) * shift_of(p.segment));
+      p.penrose =
+          std::visit([&](const auto& kind) { return place_in(kind, i, shift_of(p.segment)); },
+                     show_.spacetime().kind());
     return p;
   }
 
@@ -249,8 +270,9 @@ void mark_instants(const Instants& show, Path& path) {
 }  // namespace
 
 bool is_jump(const PathPoint& a, const PathPoint& b) {
-  if (a.segment == b.segment || a.r == b.r) return a.region != b.region && a.segment != b.segment;
-  return a.region != b.region || std::abs(b.r - a.r) > 1e-6 * a.r;
+  if (a.segment == b.segment) return false;
+  if (a.region != b.region && !are_apart(a.region, b.region)) return true;
+  return a.r != b.r && std::abs(b.r - a.r) > 1e-6 * a.r;
 }
 
 bool is_joined(const PathPoint& a, const PathPoint& b) { return !is_jump(a, b); }

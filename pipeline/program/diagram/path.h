@@ -12,7 +12,8 @@ struct PathPoint {
   double time_s = 0;  // since the beginning of the show
   int segment = 0;
   Region region = Region::kI;
-  double r = kFlatSpace;  // M
+  int universe = 0;       // of those that follow each other through a charged hole
+  double r = kFlatSpace;  // M, or radii of a wormhole's throat
   double azimuth = 0;     // radians in the orbital plane from the show's start, in (-pi, pi]
   double swept = 0;       // radians since the start of the trajectory, unbounded
   double speed = 0;       // against the reference tetrad, or in flat space against the sky
@@ -30,7 +31,8 @@ bool is_joined(const PathPoint& a, const PathPoint& b);
 bool is_joined_in_plane(const PathPoint& a, const PathPoint& b);
 
 // Says whether the path jumps from a to the next point b.  It does where b belongs to another
-// segment and has another region or another r, by more than 1e-6 of it.
+// segment and has another r, by more than 1e-6 of it, or is in another region that does not begin
+// there.
 bool is_jump(const PathPoint& a, const PathPoint& b);
 
 // An Origin says where t = 0 lies in the Penrose diagram, and why it lies there.
@@ -58,9 +60,9 @@ struct Path {
 //
 // The Killing symmetry t -> t + constant moves every point of the Penrose diagram along its curve
 // of constant r.  The constant is chosen for each run of segments without a jump.  It puts the
-// run's last crossing of a horizon at the middle of the horizon's line.  Where the past and the
-// future horizon are crossed within 16 M, both crossings lie symmetrically.  Where no horizon is
-// crossed, the middle of the run is at t = 0.
+// run's last crossing of the horizon at the middle of the horizon's line.  Where the past and the
+// future horizon, or those before and after the inside of a charged hole, are crossed within 16 M,
+// both crossings lie symmetrically.  Where no horizon is crossed, the middle of the run is at t = 0.
 Path sample_path(const Show& show);
 
 // Returns the smallest of 1, 2 and 5 times a power of ten that is `least` or more, for least > 0.

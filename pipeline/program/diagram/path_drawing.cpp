@@ -20,7 +20,7 @@ struct Stretch {
 };
 
 const char* dashes_of(Region region) {
-  if (region == Region::kIII) return "8 4";
+  if (region == Region::kIII || region == Region::kVI) return "8 4";
   return region == Region::kIV ? "2 4" : "";
 }
 
@@ -126,6 +126,22 @@ void draw_held_instants(Svg& page, const std::vector<Stretch>& stretches) {
 
 }  // namespace
 
+std::vector<RadiusMark> radius_marks(const Spacetime& spacetime) {
+  if (spacetime.is<Wormhole>()) return {{1, "throat", false}};
+  const auto* hole = std::get_if<ChargedHole>(&spacetime.kind());
+  std::vector<RadiusMark> marks;
+  if (hole && !hole->is_naked() && !hole->is_extremal())
+    marks.push_back({hole->inner_horizon(), "inner horizon", true});
+  if (spacetime.horizon() > 0) marks.push_back({spacetime.horizon(), "horizon", true});
+  if (spacetime.light_circle() > 0)
+    marks.push_back({spacetime.light_circle(), "light circle", false});
+  return marks;
+}
+
+const char* unit_of(const Spacetime& spacetime) {
+  return spacetime.is<Wormhole>() ? "radii of the throat" : "M";
+}
+
 std::string segment_colour(int segment) {
   // These are Okabe and Ito's colours, which the colour-blind can tell apart too, darkened for
   // white paper.
@@ -172,7 +188,8 @@ void draw_key(Svg& page, const PagePoint& at, const Path& path) {
   double x = at.x + 245;
   for (const Region region : {Region::kIII, Region::kIV}) {
     bool visited = false;
-    for (const PathPoint& p : path.points) visited |= p.region == region;
+    for (const PathPoint& p : path.points)
+      visited |= p.region == region || (region == Region::kIII && p.region == Region::kVI);
     if (!visited) continue;
     page.line({x, y}, {x + 34, y}, {colour, kWidth, dashes_of(region)});
     page.text({x + 41, at.y}, fmt::format("in region {}", region_name(region)));

@@ -112,18 +112,18 @@ const char* reason_of(Origin::Centre centre) {
   return "the crossings of both horizons lie symmetrically.";
 }
 
-std::string path_note(const Path& path) {
+}  // namespace
+
+std::string origin_note(const Path& path, const char* unit) {
   const Origin& first = path.origins.front();
   for (const Origin& other : path.origins)
     if (other.time_shift != first.time_shift)
       return "The origin of t is free: after each jump it is chosen anew, so that a crossing or "
              "the "
              "middle is central.";
-  return fmt::format("The origin of t is free: it is chosen (t shifted by {} M) so that {}",
-                     number_text(first.time_shift), reason_of(first.centre));
+  return fmt::format("The origin of t is free: it is chosen (t shifted by {} {}) so that {}",
+                     number_text(first.time_shift), unit, reason_of(first.centre));
 }
-
-}  // namespace
 
 PlaceOnPage draw_penrose_panel(Svg& page, const PageBox& box, const Path& path) {
   const Diagram at(box);
@@ -139,7 +139,7 @@ PlaceOnPage draw_penrose_panel(Svg& page, const PageBox& box, const Path& path) 
   page.text({box.left, box.bottom + 52},
             "The whole spacetime, the future up; light runs at 45\u00b0. Grey: constant r (M).",
             {12, "#5a606c"});
-  page.text({box.left, box.bottom + 70}, path_note(path), {12, "#5a606c"});
+  page.text({box.left, box.bottom + 70}, origin_note(path, "M"), {12, "#5a606c"});
   page.end_group();
   return place;
 }

@@ -82,19 +82,27 @@ void draw_curve(Svg& page, const Path& path, const Scale& x, const Scale& y,
   finish();
 }
 
-// The names of the two radii stand beside the box, apart from each other.
+// The names of the radii stand beside the box, apart from each other.
 void mark_radii(Svg& page, const PageBox& box, const Scale& y, const Spacetime& spacetime) {
-  double horizon = y(spacetime.horizon()), circle = y(spacetime.light_circle());
-  page.line({box.left, horizon}, {box.right, horizon}, {"#16181d", 1.6});
-  page.line({box.left, circle}, {box.right, circle}, {"#16181d", 1.2, "5 4"});
   constexpr double kApart = 16, kAboveAxis = 6;
-  const double spread = std::max(0.0, kApart - (horizon - circle)) / 2;
-  horizon = std::min(horizon + spread, box.bottom - kAboveAxis);
-  circle = std::min(circle - spread, horizon - kApart);
-  page.text({box.right + 8, horizon + 4},
-            fmt::format("horizon r = {}", number_text(spacetime.horizon())), {12});
-  page.text({box.right + 8, circle + 4},
-            fmt::format("light circle r = {}", number_text(spacetime.light_circle())), {12});
+  const std::vector<RadiusMark> marks = radius_marks(spacetime);
+  std::vector<double> names;
+  for (const RadiusMark& mark : marks) {
+    names.push_back(y(mark.r));
+    page.line({box.left, names.back()}, {box.right, names.back()},
+              mark.is_horizon ? Stroke{"#16181d", 1.6} : Stroke{"#16181d", 1.2, "5 4"});
+  }
+  // Two neighbours make room for each other, and the lowest stays above the axis.
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    const double spread = std::max(0.0, kApart - (names[k - 1] - names[k])) / 2;
+    names[k - 1] += spread, names[k] -= spread;
+  }
+  double below = box.bottom - kAboveAxis + kApart;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    below = std::min(names[k], below - kApart);
+    page.text({box.right + 8, below + 4},
+              fmt::format("{} r = {}", marks[k].name, number_text(marks[k].r)), {12});
+  }
 }
 
 PlaceOnPage draw_time_panel(Svg& page, const PageBox& box, const Show& show, const Path& path,
@@ -126,7 +134,9 @@ Scale radius_scale(const PageBox& box, const Path& path) {
 
 PlaceOnPage draw_radius_panel(Svg& page, const PageBox& box, const Show& show, const Path& path) {
   const Scale y = radius_scale(box, path);
-  draw_heading(page, box, y.logarithmic ? "Radius r (M), logarithmic" : "Radius r (M)");
+  draw_heading(page, box,
+               fmt::format("Radius r ({}){}", unit_of(show.spacetime),
+                           y.logarithmic ? ", logarithmic" : ""));
   page.begin_group("radius");
   PlaceOnPage place = draw_time_panel(page, box, show, path, y, &PathPoint::r, true);
   page.end_group();

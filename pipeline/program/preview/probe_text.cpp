@@ -55,10 +55,11 @@ std::string LivePictures::probe(const PictureRequest& request, PixelPosition at)
   const FrameState state = state_for(request);
   prepare(request);
   const FrameState& seen = dominant_view(state);
-  Json json = {
-      {"inside", is_inside(seen.projection, at)},
-      {"region", is_flat(seen.observer) ? Json() : Json(region_name(seen.observer.region))},
-      {"r", seen.observer.r}};
+  Json json = {{"inside", is_inside(seen.projection, at)},
+               {"region", is_flat(seen.observer)
+                              ? Json()
+                              : Json(region_name(seen.observer.region, seen.observer.universe))},
+               {"r", seen.observer.r}};
   const PixelProbe pixel(prepared_, seen, at);
   add_ray(pixel.ray(), pixel_angle(seen.projection, at), json);
   for (const DiscAtPixel& disc : pixel.disc())

@@ -114,7 +114,7 @@ Json states_of(const Show& show) {
     const ObserverState& o = dominant_view(state).observer;
     frames.push_back(frame);
     r.push_back(rounded_number(o.r));
-    regions.push_back(is_flat(o) ? Json() : Json(region_name(o.region)));
+    regions.push_back(is_flat(o) ? Json() : Json(region_name(o.region, o.universe)));
     clocks.push_back(rounded_number(o.proper_time));
     speeds.push_back(rounded_number(shown_speed(o)));
     const auto shift = frequency_range(o, own_sky(o), !show.effects.lensing);
@@ -208,6 +208,7 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
   }
   for (const ShowWarning& warning : axis.warnings()) warnings.push_back(warning);
   for (const ShowWarning& warning : bodies.warnings()) warnings.push_back(warning);
+  for (const ShowWarning& warning : horizon_warnings(show)) warnings.push_back(warning);
   for (const ShowWarning& warning : body_warnings(show)) warnings.push_back(warning);
   for (const ShowWarning& warning : title_warnings(show)) warnings.push_back(warning);
   Renderer renderer(show, 1, {}, kSurveyDetail);
@@ -223,6 +224,16 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
   Json list = Json::array();
   for (const ShowWarning& warning : warnings) list.push_back(warning_json(warning));
   return page_json({{"done", true}, {"warnings", list}});
+}
+
+// Names the skies that a show of this kind may see.
+Json skies_as_json(const Show& show) {
+  const auto* charged = std::get_if<ChargedHole>(&show.spacetime.kind());
+  Json names = Json::array({"I"});
+  if (!show.spacetime.is_flat() && !(charged && charged->is_naked())) names.push_back("III");
+  if (show.spacetime.is<Schwarzschild>()) names.push_back("IV");
+  if (show.spacetime.leads_on()) names.push_back("next");
+  return names;
 }
 
 std::string no_warnings_as_json(bool done) {
@@ -256,7 +267,7 @@ std::string show_facts(const LiveShow::Version& version, int threads) {
                {"display", version.display},
                {"view", version.view},
                {"effects", effects_of(show.effects)},
-               {"skies", mass ? Json({"I", "III", "IV"}) : Json({"I"})},
+               {"skies", skies_as_json(show)},
                {"overlays", overlays_as_json()},
                {"states", states_of(show)},
                {"plots", plots_of(show)}};

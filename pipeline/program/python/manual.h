@@ -77,7 +77,7 @@ Returns an array in the shape of `frames`, or (show.frames,) for None.  Its colu
     frame           number of the frame
     show_time_s     seconds since the start of the show
     segment         number of the segment in the timeline, from 1
-    region          I, II, III or IV of the extended spacetime
+    region          I, II, III or IV of the extended spacetime, and V or VI in a charged hole
     tetrad          reference tetrad: rain, outgoing, rain_of_III or outgoing_to_III
     r               radius, M
     proper_time     of the observer since the start of the segment's orbit, M; seconds in flat space
@@ -87,6 +87,7 @@ Returns an array in the shape of `frames`, or (show.frames,) for None.  Its colu
     azimuth_deg     swept in the planes of its orbits since the start of the show, degrees
     x_r ... z_phi   the camera's axes x, y, z in the boosted R, Theta, Phi
     null_time       v = t + r* where the tetrad is rain, u = t - r* where it is outgoing, M
+    universe        number of the universe, of those that follow each other through a charged hole
 
 so that states["r"] is an array of radii, with all digits of a float64.
 

@@ -236,7 +236,7 @@ void warn_of_rates(const Show& show, std::vector<ShowWarning>& warnings) {
 
 bool SegmentJoint::place_jumps() const {
   constexpr double kSame = 1e-6;
-  if (region_before != region_after) return true;
+  if (before != after && !are_apart(before.region, after.region)) return true;
   return r_before != r_after && !(std::abs(r_after - r_before) <= kSame * r_before);
 }
 
@@ -254,7 +254,7 @@ std::vector<SegmentJoint> segment_joints(const Show& show) {
     SegmentJoint j;
     j.segment = later, j.time_s = times[k], j.dissolve_s = show.timeline[k].dissolve_s;
     j.r_before = a.r, j.r_after = b.r;
-    j.region_before = a.region, j.region_after = b.region;
+    j.before = {a.region, a.universe}, j.after = {b.region, b.universe};
     // A speed against each other has a meaning only for observers at one place.
     if (!j.place_jumps()) j.speed = relative_speed(a, b);
     j.rate_before = clock_rate(show.timeline[k - 1], 1),

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/program/survey/show_survey.h"
 #include "pipeline/program/survey/show_warnings.h"
 #include "pipeline/show/frame_state.h"
 
@@ -17,13 +18,13 @@ struct SegmentJoint {
   double time_s = 0;  // show seconds at which it begins
   double dissolve_s = 0;
   double r_before = 0, r_after = 0;  // M
-  Region region_before = Region::kI, region_after = Region::kI;
+  Visit before, after;
   // The observers have this speed against each other (1 is light's).  It is missing unless they are
   // at one place.
   std::optional<double> speed;
   double rate_before = 0, rate_after = 0;  // M of proper time a second of show
 
-  // Says whether the place jumps to another region, or by more than 1e-6 of r.
+  // Says whether the place jumps to another region, but through a horizon, or by more than 1e-6 of r.
   bool place_jumps() const;
   // Says whether the velocity jumps by more than 1e-4 of light's speed.
   bool velocity_jumps() const;

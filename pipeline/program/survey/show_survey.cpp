@@ -17,9 +17,10 @@ constexpr int kLeastSurveySamples = 512, kMostSurveySamples = 20'000;
 // This is about half the bits of a double.  Near a minimum r is quadratic in time, so that a closer
 // time would change it by less than rounding.
 constexpr int kMinimumBits = 26;
+constexpr double kCrossed = 1e-6;  // of r + 1 M: a horizon is not crossed twice within that time
 
-void visit(std::vector<Region>& regions, Region region) {
-  if (regions.empty() || regions.back() != region) regions.push_back(region);
+void add(std::vector<Visit>& visits, const Visit& visit) {
+  if (visits.empty() || visits.back() != visit) visits.push_back(visit);
 }
 
 // Returns the last frame that is not later than an instant.  An instant at most kCutTolerance
@@ -32,9 +33,14 @@ int frame_at(const Show& show, double time_s) {
 // A SampledPath is the part of its trajectory that a segment shows, sampled in proper time.
 class SampledPath {
  public:
-  SampledPath(const Segment& segment, int frames) : segment_(segment) {
+  // `universe` is that of its beginning.
+  SampledPath(const Show& show, const Segment& segment, int universe)
+      : spacetime_(show.spacetime), segment_(segment) {
     const ProperTime &begin = segment.timing.tau_begin, &end = segment.timing.tau_end;
-    const int samples = std::clamp(frames, kLeastSurveySamples, kMostSurveySamples);
+    universe_ = universe - at(begin).universe;
+    const int samples =
+        static_cast<int>(std::clamp(segment.duration_s * show.frames_per_second,
+                                    double{kLeastSurveySamples}, double{kMostSurveySamples}));
     // The radius repeats itself after a period, so that samples of one period are enough.
     const double step = std::min(double(end - begin), radial_period(segment.trajectory)) / samples;
     for (int k = 0; k <= samples; ++k) taus_.push_back(std::min(end, begin + step * k));
@@ -43,13 +49,19 @@ class SampledPath {
     // for a short time.
     if (begin < 0 && 0 < end) taus_.emplace_back(0);
     add_periastron(begin, end);
+    add_crossings(begin, end);
     std::sort(taus_.begin(), taus_.end());
   }
 
-  std::vector<Region> regions() const {
-    std::vector<Region> regions;
-    for (const ProperTime& tau : taus_) visit(regions, at(tau).region);
-    return regions;
+  // Says which regions are visited, and which skies are seen.
+  void survey(std::vector<Visit>& visits, PerSky<bool>& skies) const {
+    for (const ProperTime& tau : taus_) {
+      const OrbitPoint p = at(tau);
+      const int universe = universe_ + p.universe;
+      add(visits, {p.region, universe});
+      const PerSky<bool> seen = spacetime_.seen_skies(p.region, p.tetrad, universe, p.r);
+      for (const SkyRegion sky : kExteriorSkies) skies[sky] = skies[sky] || seen[sky];
+    }
   }
 
   // Returns the proper time and the value of the least r.  Brent's method refines the least sample
@@ -75,11 +87,32 @@ class SampledPath {
     if (tau && *tau < end) taus_.push_back(*tau);
   }
 
+  // Adds an instant of each stay between the horizons, and inside the inner one.  An orbit that comes
+  // from far away is there for much less than a sample's time, and comes into another universe in
+  // each period.
+  void add_crossings(const ProperTime& begin, const ProperTime& end) {
+    const auto* hole = std::get_if<ChargedHole>(&spacetime_.kind());
+    if (!hole || hole->is_naked()) return;
+    std::vector<ProperTime> crossed;
+    for (const double r : {hole->horizon(), hole->inner_horizon()})
+      for (const Leg leg : {Leg::kInward, Leg::kOutward}) {
+        auto tau = time_at(segment_.trajectory, r, leg, begin);
+        for (; tau && *tau < end && crossed.size() < kMostSurveySamples;
+             tau = time_at(segment_.trajectory, r, leg, *tau + kCrossed * (1 + r)))
+          crossed.push_back(*tau);
+      }
+    std::sort(crossed.begin(), crossed.end());
+    for (std::size_t k = 1; k < crossed.size(); ++k)
+      taus_.push_back(crossed[k - 1] + double(crossed[k] - crossed[k - 1]) / 2);
+  }
+
   OrbitPoint at(const ProperTime& tau) const {
     return placed(point_at(segment_.trajectory, tau), segment_.placement);
   }
 
+  const Spacetime& spacetime_;
   const Segment& segment_;
+  int universe_ = 0;  // of the trajectory's first one
   std::vector<ProperTime> taus_;
 };
 
@@ -101,9 +134,7 @@ double part_of(const Segment& segment, const ProperTime& tau) {
 SegmentSurvey survey_segment(const Show& show, int k, double begin_s) {
   const Segment& segment = segment_of(show, k);
   const Timing& timing = segment.timing;
-  const SampledPath path(segment,
-                         static_cast<int>(std::min(segment.duration_s * show.frames_per_second,
-                                                   double{kMostSurveySamples})));
+  const SampledPath path(show, segment, observer_at(show, k, 0).universe);
   SegmentSurvey s;
   s.type = segment.type;
   s.begin_s = begin_s, s.end_s = begin_s + segment.duration_s, s.dissolve_s = segment.dissolve_s;
@@ -112,7 +143,7 @@ SegmentSurvey survey_segment(const Show& show, int k, double begin_s) {
   const auto [tau, r] = path.closest();
   s.closest = {r, begin_s + segment.duration_s * part_of(segment, tau), 0, k};
   s.closest.frame = frame_at(show, s.closest.time_s);
-  s.regions = path.regions();
+  path.survey(s.visits, s.skies);
   s.proper_time = double(timing.tau_end - timing.tau_begin);
   s.rate_begin = clock_rate(segment, 0), s.rate_end = clock_rate(segment, 1);
   return s;
@@ -168,7 +199,8 @@ ShowSurvey survey(const Show& show, const std::function<void(const FrameState&)>
   for (std::size_t k = 0; k < show.timeline.size(); ++k) {
     found.segments.push_back(survey_segment(show, static_cast<int>(k), times[k]));
     const SegmentSurvey& s = found.segments.back();
-    for (const Region region : s.regions) visit(found.regions, region);
+    for (const Visit& visit : s.visits) add(found.visits, visit);
+    for (const SkyRegion sky : kExteriorSkies) found.skies[sky] = found.skies[sky] || s.skies[sky];
     if (!show.spacetime.is_flat() && (!found.closest || s.closest.value < found.closest->value))
       found.closest = s.closest;
   }

@@ -19,6 +19,15 @@ struct Extreme {
   int segment = 0;
 };
 
+// A Visit is a stay in a region of one of the universes that follow each other through a charged
+// hole.
+struct Visit {
+  Region region = Region::kI;
+  int universe = 0;
+
+  bool operator==(const Visit&) const = default;
+};
+
 struct SegmentSurvey {
   std::string type;               // of the trajectory, in the words of show files
   double begin_s = 0, end_s = 0;  // show seconds
@@ -27,15 +36,17 @@ struct SegmentSurvey {
   // turning points of an orbit are sought to 1e-7 of its proper time.
   double r_begin = kFlatSpace, r_end = kFlatSpace;
   Extreme closest;
-  std::vector<Region> regions;  // in the order visited, each time it is entered
-  double proper_time = 0;       // M (seconds in flat space) that pass in the segment
+  std::vector<Visit> visits;  // in their order
+  PerSky<bool> skies;         // those of exteriors that are seen
+  double proper_time = 0;     // M (seconds in flat space) that pass in the segment
   // These are M of proper time (seconds in flat space) per second of show, at both ends.
   double rate_begin = 0, rate_end = 0;
 };
 
 struct ShowSurvey {
   std::vector<SegmentSurvey> segments;
-  std::vector<Region> regions;     // in the order visited
+  std::vector<Visit> visits;       // of all segments
+  PerSky<bool> skies;              // seen in any segment
   std::optional<Extreme> closest;  // r (M); none in flat space
   // This is the largest gamma v of a frame's observer against the static one of its place (r > 2,
   // or flat space).  It is missing if no frame is outside.

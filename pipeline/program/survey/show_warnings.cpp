@@ -13,6 +13,7 @@
 #include "pipeline/show/curve.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/nearest_word.h"
+#include "pipeline/show/observer_track.h"
 #include "pipeline/show/title_text.h"
 #include "trajectories/trajectory.h"
 
@@ -90,7 +91,61 @@ void add_warnings(const Show& show, const Title& title, std::vector<ShowWarning>
         "or more lines would fit");
 }
 
+bool is_lit(const Show& show, const FrameState& state, SkyRegion sky) {
+  const FrameSettings::Sky& now = state.settings.sky[sky];
+  const bool black = std::holds_alternative<BlackSky>(background_of(show, state.segment, sky)) ||
+                     !(now.background_gain > 0);
+  return !black || (show.sky[sky].stars && now.star_gain > 0);
+}
+
+// Adds a warning where the sky is lit.
+void add_flash(const Show& show, const FrameState& state, SkyRegion sky, const char* passage,
+               std::vector<ShowWarning>& warnings) {
+  if (!is_lit(show, state, sky)) return;
+  const std::string whose =
+      sky == SkyRegion::kNext ? "of the next universe" : fmt::format("of region {}", name_of(sky));
+  warnings.push_back(
+      {state.show_time_s, state.frame, state.segment,
+       fmt::format("the observer {}, where all that the sky {} will ever send arrives at once, "
+                   "bluer without bound; fade that sky out around here, or it flashes as the "
+                   "frames happen to fall",
+                   passage, whose)});
+}
+
 }  // namespace
+
+std::vector<ShowWarning> horizon_warnings(const Show& show) {
+  std::vector<ShowWarning> warnings;
+  if (!show.spacetime.leads_on()) return warnings;
+  const bool two_horizons = show.spacetime.horizon() > show.spacetime.innermost();
+  const auto observer_in = [&](int frame) {
+    const double t = frame / show.frames_per_second;
+    const int segment = segment_at(show, t);
+    return observer_at(show, segment, part_at(show, segment, t));
+  };
+  ObserverState before = observer_in(0);
+  for (int frame = 1; frame < frame_count(show); ++frame) {
+    const ObserverState last = before, now = observer_in(frame);
+    before = now;
+    // The whole inside may lie between two frames.
+    const bool was_inside = is_within_inner_horizon(last.region),
+               is_inside = is_within_inner_horizon(now.region),
+               passes = !was_inside && !is_inside && now.universe > last.universe,
+               falls = is_outside(last.region) && (passes || !is_outside(now.region)),
+               enters = passes || (!was_inside && is_inside),
+               leaves = passes || (was_inside && !is_inside);
+    if (!falls && !enters && !leaves) continue;
+    const FrameState state = frame_state(show, frame);
+    if (falls && last.universe > 0)
+      add_flash(show, state, own_sky(last.tetrad, last.universe - 1), "falls through the horizon",
+                warnings);
+    if (enters && two_horizons)
+      add_flash(show, state, own_sky(mirror_of(last.tetrad), last.universe),
+                "falls through the inner horizon", warnings);
+    if (leaves) add_flash(show, state, own_sky(last), "rises through the inner horizon", warnings);
+  }
+  return warnings;
+}
 
 NearBodies::NearBodies(const Show& show) : show_(show) {
   for (const Body& body : show.bodies) {

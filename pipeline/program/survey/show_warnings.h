@@ -45,6 +45,10 @@ class NearBodies {
   std::vector<LargeBody> bodies_;
 };
 
+// Returns a warning for each passage of a horizon of a charged hole at which light of a sky that the
+// show lights is blueshifted without bound.
+std::vector<ShowWarning> horizon_warnings(const Show& show);
+
 // Returns a warning for each title
 // - that no frame shows, because it begins and ends between two,
 // - that has only invisible characters,

@@ -27,15 +27,9 @@ struct ShownSky {
   double max_magnitude;  // the deepest that any of them reaches
 };
 
-// Says whether a segment sees the sky of a region.  A segment inside the hole or in a wormhole
-// sees both skies.
 bool segment_sees(const Show& show, const SegmentSurvey& segment, SkyRegion region) {
   if (region == SkyRegion::kIV) return show.spacetime.is<Schwarzschild>();
-  if (region == SkyRegion::kNext) return false;
-  if (show.spacetime.is<Wormhole>()) return true;
-  const Region outside = region == SkyRegion::kI ? Region::kI : Region::kIII;
-  return std::any_of(segment.regions.begin(), segment.regions.end(),
-                     [outside](Region r) { return r == outside || r == Region::kII; });
+  return segment.skies[region];
 }
 
 // Returns the deepest limit between a segment's first and last instant.  A curve does not exceed
@@ -128,12 +122,12 @@ SkySources sources_of(const Show& show, const ShownSky& sky, Magnitudes& magnitu
   return found;
 }
 
-// Says whether a sky of region III is one of region I, seen from the other side.  Then what is said
-// of region I, whose limit is at least as deep, is true of it.
+// Says whether another sky is one of region I, seen from the other side.  Then what is said of region
+// I, whose limit is at least as deep, is true of it.
 bool is_as_in_region_one(const Show& show, const ShownSky& sky,
                          const std::vector<ShownSky>& shown) {
-  if (sky.region != SkyRegion::kIII ||
-      show.sky[SkyRegion::kI].stars != show.sky[SkyRegion::kIII].stars)
+  if (sky.region == SkyRegion::kI || sky.region == SkyRegion::kIV ||
+      show.sky[SkyRegion::kI].stars != show.sky[sky.region].stars)
     return false;
   return std::any_of(shown.begin(), shown.end(), [&](const ShownSky& other) {
     return other.region == SkyRegion::kI && *other.background == *sky.background &&

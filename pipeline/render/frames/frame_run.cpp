@@ -283,7 +283,7 @@ FrameInfo frame_info(const Show& show, const std::string& digest, const FrameSta
           .show = digest,
           .key = key,
           .frame = state.frame,
-          .region = region_name(observer.region),
+          .region = region_name(observer.region, observer.universe),
           .r = rounded_for_key(observer.r),
           .proper_time = rounded_for_key(observer.proper_time),
           .frames_per_second = show.frames_per_second,

@@ -35,7 +35,7 @@ std::string motion_text(const Show& show, const ObserverState& o) {
 
 std::string place_text(const ObserverState& o) {
   if (is_flat(o)) return "flat space";
-  return fmt::format("region {}\nr = {} M", region_name(o.region), five_digits(o.r));
+  return fmt::format("region {}\nr = {} M", region_name(o.region, o.universe), five_digits(o.r));
 }
 
 std::string clock_of(const ObserverState& o) {

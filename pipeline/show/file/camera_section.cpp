@@ -196,7 +196,7 @@ std::vector<AttitudeKey> read_track(const Item& item, double tilt, const ShowCam
   if (!file) return track;
   try {
     for (const CameraSample& sample : read_camera_file(*file, show.frames_per_second)) {
-      const M33d axes = tetrad_from_camera(sample.world_from_camera, show.projection);
+      const M33d axes = base_from_camera(sample.world_from_camera, show.projection);
       track.push_back({sample.at_s, euler_angles_of(untilted(axes, tilt)), Ease::kLinear});
     }
   } catch (const InputError& error) {

@@ -39,20 +39,11 @@ std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage,
   const bool mirrored = is_in_region_three(s);
   const auto timing = read_timing(s, stage, orbit, start);
   if (!timing) return std::nullopt;
-  // Light beyond the inner horizon is not drawn.
-  const ChargedHole& hole = hole_of(stage);
-  const auto inner = orbit.passes()
-                         ? orbit.time_at(hole.inner_horizon(), Leg::kInward, timing->tau_begin)
-                         : std::nullopt;
-  const bool beyond = point_at(orbit, timing->tau_begin).r <= hole.inner_horizon();
-  if (beyond || (inner && *inner <= timing->tau_end)) {
-    (s.find("to_r") ? *s.find("to_r") : item)
-        .fail(
-            fmt::format("goes through the inner horizon, r = {} M, beyond which nothing is drawn; "
-                        "give a to_r above it",
-                        short_number(hole.inner_horizon())));
-    return std::nullopt;
-  }
+  const auto turn = orbit.next_periastron(timing->tau_begin);
+  if (orbit.innermost() < kNearest && turn && *turn <= timing->tau_end)
+    return item.fail(fmt::format("turns at r = {} M; shows go from {} to {} M",
+                                 short_number(orbit.innermost()), short_number(kNearest),
+                                 short_number(kFarthest)));
   return TimedTrajectory{orbit, *timing, {mirrored}};
 }
 

@@ -72,7 +72,12 @@ ChannelValues read_values(const Section& section, const Show& show,
     const std::string_view more = !singularity      ? "sky.stars"
                                   : read_background ? "sky.rings"
                                                     : "sky.gain";
-    const Section own(sky.find(kSkyKeys[region]), {"sky.gain", more, background});
+    const Item* given = sky.find(kSkyKeys[region]);
+    if (given && region == SkyRegion::kNext && !show.spacetime.leads_on()) {
+      fail_next_sky(*given, show.spacetime);
+      continue;
+    }
+    const Section own(given, {"sky.gain", more, background});
     values[gain_channel(region)] = own.given("gain");
     if (read_background) read_background(region, own);
     if (singularity) continue;

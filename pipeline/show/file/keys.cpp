@@ -25,6 +25,7 @@ constexpr std::string_view kRows = R"(
 | `timeline` | the list of segments, below | required |
 ## marker
 | `r` | 1e-6 to 1e9 M: the event is the first instant at which the observer is there | required |
+| `leg` | `inward` or `outward`: the first one at which r falls, or grows, there | the first of either |
 ## black_hole
 | `mass_solar` | 0 to 1e13 solar masses; 0 is flat space: from 1e-20 on, or 0 for no hole | [0] |
 | `charge` | 0 to 1: its electric charge in units of its mass, [below](#a-charged-hole) | [0] |
@@ -185,6 +186,7 @@ constexpr std::string_view kRows = R"(
 ## sky
 | `region_I` | the sky outside, with the keys below | |
 | `region_III` | the other sky, with the same keys | like `region_I` |
+| `next` | near a charge: the sky of the [next universe](#through-a-charged-hole), with the same keys | like `region_I` |
 | `region_IV` | the past singularity: a `background` seen as a sphere, or `rings`, or a map of the keys below. No stars, no redshift | [`black`] |
 ## sky.law
 | `blueshift_power` | 0 to 10: a panorama grows brighter by (1 + z) to minus this power where its light is shifted to the blue | [2] |

@@ -15,6 +15,11 @@ namespace {
 constexpr int kHalvings = 60;
 constexpr double kAtEnds = 1e-9;  // of r at the ends of segments, as a part of it
 
+std::string leg_text(std::optional<Leg> leg) {
+  if (!leg) return "";
+  return *leg == Leg::kInward ? " on its way inward" : " on its way outward";
+}
+
 bool is_to_come(const Marker& marker) { return marker.event && std::isnan(marker.at_s); }
 
 }  // namespace
@@ -34,14 +39,20 @@ class MarkedEvents::Way {
     return point_at(segment_.trajectory, proper_time_at(segment_, part)).r;
   }
 
-  // Returns the part that has passed when the observer is at r for the first time.  The ends of
-  // segments are where they were meant to be but for rounding.
-  std::optional<double> at_radius(double radius) const {
+  // Returns the part that has passed when the observer is at r for the first time, on that leg if one
+  // is given.  The ends of segments are where they were meant to be but for rounding.
+  std::optional<double> at_radius(double radius, std::optional<Leg> leg) const {
+    const auto is_meant = [leg](double before, double after) {
+      return !leg || (*leg == Leg::kInward ? after < before : after > before);
+    };
     double last = r(0);
     for (int k = 0; k <= steps_; ++k) {
       const double now = r(part(k));
-      if (std::abs(now - radius) <= kAtEnds * radius) return part(k);
-      if ((last - radius) * (now - radius) < 0) return crossing(part(k - 1), part(k), radius);
+      const bool there = std::abs(now - radius) <= kAtEnds * radius;
+      if (there && (k < steps_ ? is_meant(now, r(part(k + 1))) : is_meant(last, now)))
+        return part(k);
+      if (!there && (last - radius) * (now - radius) < 0 && is_meant(last, now))
+        return crossing(part(k - 1), part(k), radius);
       last = now;
     }
     return std::nullopt;
@@ -100,7 +111,8 @@ void MarkedEvents::follow(const Segment& segment, double begin_s) {
   const auto periastron = part_at_periastron(way);
   for (Marker& marker : markers_) {
     if (!is_to_come(marker)) continue;
-    const auto part = marker.event->r ? way.at_radius(*marker.event->r) : periastron;
+    const auto part =
+        marker.event->r ? way.at_radius(*marker.event->r, marker.event->leg) : periastron;
     if (part) marker.at_s = begin_s + *part * segment.duration_s;
   }
 }
@@ -116,9 +128,11 @@ std::optional<ProperTime> time_of_event(const MarkerEvent& event, const Trajecto
                                         const ProperTime& begin) {
   if (!event.r) return next_periastron(trajectory, begin);
   // The r of a beginning that was sought for itself comes back rounded.
-  if (std::abs(point_at(trajectory, begin).r - *event.r) <= kAtEnds * *event.r) return begin;
+  if (!event.leg && std::abs(point_at(trajectory, begin).r - *event.r) <= kAtEnds * *event.r)
+    return begin;
   std::optional<ProperTime> first;
   for (const Leg leg : {Leg::kInward, Leg::kOutward}) {
+    if (event.leg && leg != *event.leg) continue;
     const auto tau = time_at(trajectory, *event.r, leg, begin);
     if (tau && (!first || *tau < *first)) first = tau;
   }
@@ -130,8 +144,8 @@ void report_missing_events(const Item& list, const std::vector<Marker>& markers)
     if (is_to_come(marker))
       peek(list, marker.name)
           ->fail(marker.event->r
-                     ? fmt::format("happens nowhere in the show, which is never at r = {}",
-                                   short_number(*marker.event->r))
+                     ? fmt::format("happens nowhere in the show, which is never at r = {}{}",
+                                   short_number(*marker.event->r), leg_text(marker.event->leg))
                      : "happens nowhere in the show, whose r never falls and rises again");
 }
 

@@ -9,6 +9,7 @@
 #include "pipeline/show/assets.h"
 #include "pipeline/show/file/sections.h"
 #include "pipeline/show/frame_state.h"
+#include "pipeline/show/observer_track.h"
 
 namespace domefall {
 namespace {
@@ -57,10 +58,23 @@ const FrameState* within(const FrameState& state) {
   return state.vanishing ? within(*state.vanishing) : nullptr;
 }
 
+// Returns a frame on or between the horizons of a charged hole, which an observer may pass within a
+// segment.
+std::optional<FrameState> frame_between_horizons(const Show& show) {
+  for (int frame = 0; frame < frame_count(show); ++frame) {
+    const double t = frame / show.frames_per_second;
+    const int segment = segment_at(show, t);
+    if (!has_rest(observer_at(show, segment, part_at(show, segment, t))))
+      return frame_state(show, frame);
+  }
+  return std::nullopt;
+}
+
 // Returns a frame on or inside a horizon, if there is one.  What falls in stays inside to the end
 // of its segment, and what comes out of the white hole is inside at its start.  So it is enough to
 // test the frames next to the ends of segments and of dissolves.
 std::optional<FrameState> frame_within(const Show& show) {
+  if (show.spacetime.is<ChargedHole>()) return frame_between_horizons(show);
   const int last = frame_count(show) - 1;
   std::vector<double> ends = segment_times(show);
   for (std::size_t k = 0; k < show.timeline.size(); ++k)
@@ -183,9 +197,10 @@ void check_effects(const Item& root, const Show& show) {
   const auto effects = peek(root, "effects");
   const auto lensing = effects ? peek(*effects, "lensing") : std::nullopt;
   (lensing ? *lensing : root)
-      .fail(fmt::format("can be false outside the horizon only (r > 2), but frame {}, in "
+      .fail(fmt::format("can be false outside the horizon only (r > {}), but frame {}, in "
                         "timeline[{}], lies at r = {} (units of M)",
-                        found->frame, found->segment + 1, short_number(found->observer.r)));
+                        short_number(show.spacetime.horizon()), found->frame, found->segment + 1,
+                        short_number(found->observer.r)));
 }
 
 GradeSettings read_grade(const Section& show, const Lookup& lookup) {

@@ -34,6 +34,8 @@ Output read_output(const Section& show);
 // Reads `sky` into `show`.  A shipped file that is missing is reported at `root`, the whole file,
 // since the section may be left out.
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show);
+// Reports the sky of a next universe that cannot be reached.
+void fail_next_sky(const Item& next, const Spacetime& spacetime);
 // Reads the background that a segment has in a region.  That of the show stands for what the keys of
 // the region leave out.
 void read_segment_background(const Section& keys, SkyRegion region, const Lookup& lookup,

@@ -130,6 +130,11 @@ namespace {
 // A name that is a time itself could not be told from one.
 bool can_name_a_marker(const std::string& name) { return !parse_time(name, {}); }
 
+MarkerEvent read_passage(const Item& item) {
+  const Section s(item, {"marker"});
+  return {s.required("r"), s.given_word("leg", {Leg::kInward, Leg::kOutward})};
+}
+
 std::vector<Marker> markers_of_file(const Item& item, const Lookup& lookup) {
   const auto file = lookup.file(item, item.node.Scalar());
   if (!file) return {};
@@ -163,7 +168,7 @@ std::vector<Marker> read_markers(const Section& show, const Lookup& lookup) {
     if (!can_name_a_marker(name))
       item.fail("has a name that is a time itself; begin it with a letter");
     else if (item.node.IsMap())
-      markers.push_back({name, std::nan(""), MarkerEvent{Section(item, {"marker"}).required("r")}});
+      markers.push_back({name, std::nan(""), read_passage(item)});
     else if (item.node.IsScalar() && item.node.Scalar() == kPeriastron)
       markers.push_back({name, std::nan(""), MarkerEvent{}});
     else if (const auto at = read_time(item, kShowTime))

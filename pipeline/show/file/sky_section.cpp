@@ -225,19 +225,31 @@ void read_planets(const Item& item, Show& show) {
 
 }  // namespace
 
+void fail_next_sky(const Item& next, const Spacetime& spacetime) {
+  next.fail(spacetime.is<ChargedHole>()
+                ? "is the sky beyond a hole, but a naked singularity has no inside to go through"
+                : "is the sky beyond a charged hole, through which the next universe is reached; "
+                  "give black_hole.charge");
+}
+
 void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& show) {
   const Section sky(section.find("sky"), {"sky", "sky.law"});
-  RegionSky before;  // region III begins with what region I has
-  for (const SkyRegion region : {SkyRegion::kI, SkyRegion::kIII}) {
-    const Section own(sky.find(kSkyKeys[region]), {"sky.gain", "sky.stars", "sky.background"});
-    if (region == SkyRegion::kI) {
-      const double star_gain = show.sky[region].star_gain;  // the point-spread law's default
-      before = default_sky(root, own, lookup);
-      before.star_gain = star_gain;
+  for (const SkyRegion region : kExteriorSkies) {
+    const Item* given = sky.find(kSkyKeys[region]);
+    if (region == SkyRegion::kNext && !show.spacetime.leads_on()) {
+      if (given) fail_next_sky(*given, show.spacetime);
+      continue;
     }
-    read_region(own, region, lookup, before);
-    suit_milky_way(root, lookup, before.stars, before.background);
-    show.sky[region] = before;
+    const Section own(given, {"sky.gain", "sky.stars", "sky.background"});
+    RegionSky read = show.sky[SkyRegion::kI];  // all begin with what region I has
+    if (region == SkyRegion::kI) {
+      const double star_gain = read.star_gain;  // the point-spread law's default
+      read = default_sky(root, own, lookup);
+      read.star_gain = star_gain;
+    }
+    read_region(own, region, lookup, read);
+    suit_milky_way(root, lookup, read.stars, read.background);
+    show.sky[region] = read;
   }
   if (const Item* four = sky.find(kSkyKeys[SkyRegion::kIV]))
     read_region_four(*four, lookup, show.sky[SkyRegion::kIV]);

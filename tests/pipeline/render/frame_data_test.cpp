@@ -8,6 +8,7 @@
 #include "pipeline/render/pixel_probe.h"
 #include "pipeline/sources/colour/colour_space.h"
 #include "tests/pipeline/render/rich_show.h"
+#include "trajectories/charged_orbit.h"
 
 namespace domefall {
 namespace {
@@ -64,6 +65,33 @@ TEST(FrameMattes, KnowTheSkiesOnBothSidesOfAWormhole) {
         EXPECT_EQ(matte(frame, ray.sky == SkyRegion::kI ? "sky_I" : "sky_III")[k], 1) << l;
       }
   }
+}
+
+// In the next universe its sky stands around the hole, and that of the one before within.
+TEST(FrameMattes, TellTheUniversesApart) {
+  const ChargedHole hole(1, 0.9L);
+  Show show = rich_show(Domemaster{120});
+  show.disc.reset();
+  show.bodies.clear();
+  show.spacetime = hole;
+  show.timeline[0].trajectory = ChargedOrbit::through(hole, 9, 0, 0);
+  show.timeline[0].timing = {-12, 12};
+  const LayeredFloatFrame before = with_mattes(show, 0), after = with_mattes(show, 29);
+  const auto sum = [](const LayeredFloatFrame& frame, const char* name) {
+    double total = 0;
+    for (const float covered : matte(frame, name)) total += covered;
+    return total;
+  };
+  EXPECT_GT(sum(before, "sky_I"), 0);
+  EXPECT_EQ(sum(before, "sky_next"), 0);
+  EXPECT_GT(sum(before, "silhouette"), 100);
+  EXPECT_GT(sum(after, "sky_next"), sum(after, "sky_I"));
+  EXPECT_GT(sum(after, "sky_I"), 100);
+  EXPECT_LT(sum(after, "silhouette"), 0.2 * sum(before, "silhouette"));
+  for (std::size_t k = 0; k < after.alpha.size(); ++k)
+    ASSERT_NEAR(
+        matte(after, "sky_I")[k] + matte(after, "sky_next")[k] + matte(after, "silhouette")[k],
+        after.alpha[k], 1e-6);
 }
 
 // The silhouette's part of a pixel against 16 x 16 rays in it.

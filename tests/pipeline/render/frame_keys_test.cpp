@@ -7,6 +7,7 @@
 #include "pipeline/render/frame_key.h"
 #include "pipeline/show/observer_track.h"
 #include "tests/pipeline/render/effect_shows.h"
+#include "trajectories/charged_orbit.h"
 
 namespace domefall {
 namespace {
@@ -56,6 +57,26 @@ TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
   expect_other_keys(show, {[](Show& s) { s.sky[SkyRegion::kIV].background = RingsSky{5}; }});
   show.sky[SkyRegion::kIV].background = GridSky{};
   EXPECT_EQ(FrameKeys(show).scene(later), key_of(show));
+}
+
+// A fall from 9 M to the same r of the next universe, at the first frame and at the last.
+TEST(FrameKeys, KnowTheNextSkyWhereItIsSeen) {
+  const ChargedHole hole(1, 0.9L);
+  Show show = show_of(ChargedOrbit::through(hole, 9, 0, 0), Domemaster{64});
+  show.spacetime = hole;
+  show.timeline[0].timing = {-12, 12};
+  const auto last_key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 29)); };
+  Show other = show;
+  other.sky[SkyRegion::kNext].background = GridSky{};
+  EXPECT_EQ(key_of(other), key_of(show));
+  EXPECT_NE(last_key(other), last_key(show));
+  Show brighter = other;
+  brighter.sky[SkyRegion::kNext].background_gain = 2;
+  EXPECT_NE(last_key(brighter), last_key(other));
+  // Where nothing else differs, two universes are two views.
+  FrameState state = frame_state(show, 0);
+  state.observer.universe = 2;
+  EXPECT_NE(FrameKeys(show).scene(state), key_of(show));
 }
 
 // Stars near the axis are drawn by how fast the sky turns, so two shows that pass one instant at

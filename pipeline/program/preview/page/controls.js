@@ -27,7 +27,7 @@ export class Controls {
     this.show = show;
     this.ticks('effects', ['aberration', 'doppler_colour', 'intensity', 'lensing'].map((word) =>
       [word, show.effects[word], nice(word)]));
-    this.ticks('skies', [...show.skies.map((name) => [name, true, `region ${name}`]), ['stars', true, 'stars']]);
+    this.ticks('skies', [...show.skies.map((name) => [name, true, name === 'next' ? 'next universe' : `region ${name}`]), ['stars', true, 'stars']]);
     this.ticks('overlays', show.overlays.map((word) => [word, false, nice(word)]));
     this.choices('display', Object.keys(show.displays), show.display);
     this.choices('grade', show.displays[$('display').value] ?? [show.view], show.view);

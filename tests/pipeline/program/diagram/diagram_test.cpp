@@ -231,6 +231,48 @@ TEST_F(Pages, HaveThreePanelsNearAHoleAndNoNumberThatIsNone) {
   }
 }
 
+TEST_F(Pages, ShowTheWayThroughACharge) {
+  const std::string fall =
+      "timeline: [{duration_s: 5, trajectory: {type: infall, from_r: 9, to_r: 9, to_leg: "
+      "outward}}]\n";
+  for (const char* charge : {"0.3", "0.9", "0.999999", "1"}) {
+    const Show show =
+        read("black_hole: {mass_solar: 10, charge: " + std::string(charge) + "}\n" + fall);
+    const std::string page = show_page(show);
+    for (const char* text : {"id=\"penrose\"", ">V<", ">I+1<", "singularity, r = 0"})
+      EXPECT_NE(page.find(text), std::string::npos) << charge << ' ' << text;
+    EXPECT_EQ(page.find(">IV+1<") == std::string::npos, std::string(charge) == "1");
+    EXPECT_EQ(page.find("nan"), std::string::npos) << charge;
+    EXPECT_EQ(page.find("inf"), page.find("infall")) << charge;
+    // The path rises, more steeply than light, and without a gap.
+    const Path p = sample_path(show);
+    for (std::size_t i = 1; i < p.points.size(); ++i) {
+      const PenrosePoint &a = p.points[i - 1].penrose, &b = p.points[i].penrose;
+      EXPECT_TRUE(is_joined(p.points[i - 1], p.points[i]));
+      EXPECT_LE(std::abs(b.x - a.x), b.up - a.up + 1e-12) << charge << ' ' << p.points[i].r;
+      // A small charge leaves so little time inside that a tick of it is half a block.
+      EXPECT_LT(b.up - a.up, std::string(charge) == "0.3" ? 0.6 : 0.02) << p.points[i].r;
+    }
+  }
+}
+
+TEST_F(Pages, ShowTheWayThroughAWormhole) {
+  const Show show = read(
+      "wormhole: {radius_km: 1e6, profile: ellis}\n"
+      "timeline: [{duration_s: 5, trajectory: {type: infall, from_l: 9, to_l: -9, speed: 0.5}}]\n");
+  const std::string page = show_page(show);
+  for (const char* text : {"id=\"penrose\"", ">III<", "throat, r = 1", "throat of 10"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_EQ(page.find("nan"), std::string::npos);
+  const Path p = sample_path(show);
+  EXPECT_GT(p.points.front().penrose.x, 0.05);
+  EXPECT_LT(p.points.back().penrose.x, -0.05);
+  for (std::size_t i = 1; i < p.points.size(); ++i) {
+    const PenrosePoint &a = p.points[i - 1].penrose, &b = p.points[i].penrose;
+    EXPECT_LE(std::abs(b.x - a.x), b.up - a.up);
+  }
+}
+
 TEST_F(Pages, NameTrajectoriesAndDissolves) {
   const std::string page = show_page(
       read("black_hole: {mass_solar: 10}\ntimeline:\n"

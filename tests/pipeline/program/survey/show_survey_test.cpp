@@ -78,9 +78,24 @@ TEST_F(Surveys, RegionsAreNamedInTheOrderVisited) {
            "to_leg: inward}}\n"
            "  - {duration_s: 2, trajectory: {type: infall, region: III, from_r: 5, to_r: 1}}\n"));
   using enum Region;
-  EXPECT_EQ(s.segments[0].regions, (std::vector{kIV, kI, kII}));
-  EXPECT_EQ(s.segments[1].regions, (std::vector{kIII, kII}));
-  EXPECT_EQ(s.regions, (std::vector{kIV, kI, kII, kIII, kII}));
+  EXPECT_EQ(s.segments[0].visits, (std::vector<Visit>{{kIV}, {kI}, {kII}}));
+  EXPECT_EQ(s.segments[1].visits, (std::vector<Visit>{{kIII}, {kII}}));
+  EXPECT_EQ(s.visits, (std::vector<Visit>{{kIV}, {kI}, {kII}, {kIII}, {kII}}));
+}
+
+// The inside of the hole is passed in 1e-5 of the segment's time.
+TEST_F(Surveys, RegionsOfEveryUniverseAreNamed) {
+  const ShowSurvey s = survey(
+      read("frames_per_second: 1\nblack_hole: {mass_solar: 4e6, charge: 0.5}\ntimeline:\n"
+           "  - {duration_s: 3, trajectory: {type: infall, rest_r: 1e4, rate_m_per_s: 3e6}}\n"
+           "  - {duration_s: 3, trajectory: {type: static, r: 9}}\n"));
+  using enum Region;
+  EXPECT_EQ(s.segments[0].visits,
+            (std::vector<Visit>{
+                {kI}, {kII}, {kV}, {kIV, 1}, {kI, 1}, {kII, 1}, {kV, 1}, {kIV, 2}, {kI, 2}}));
+  EXPECT_EQ(s.segments[1].visits, (std::vector<Visit>{{kI, 2}}));
+  for (const SkyRegion sky : kExteriorSkies) EXPECT_TRUE(s.skies[sky]);
+  EXPECT_EQ(region_name(s.visits.back().region, s.visits.back().universe), "I+2");
 }
 
 TEST_F(Surveys, SpeedsAreThoseOfKeplersCircles) {

@@ -100,6 +100,37 @@ TEST_F(TitleWarnings, AreOfATitleBetweenTwoFrames) {
               ElementsAre(lost));
 }
 
+// ---- horizons ----
+
+class HorizonWarnings : public ShowFile {
+ protected:
+  std::vector<std::string> texts(const std::string& charge, const std::string& more = "") {
+    std::vector<std::string> texts;
+    for (const ShowWarning& warning : horizon_warnings(
+             read("frames_per_second: 5\nblack_hole: {mass_solar: 4e6, charge: " + charge +
+                  "}\ntimeline:\n  - duration_s: 60\n    trajectory: {type: infall, rest_r: 9, "
+                  "rate_m_per_s: 3}\n" +
+                  more)))
+      texts.push_back(warning.text);
+    return texts;
+  }
+};
+
+TEST_F(HorizonWarnings, AreOfEverySkyThatFlashes) {
+  const auto flash = [](const char* passage, const char* sky) {
+    return HasSubstr(std::string("the observer ") + passage + ", where all that the sky " + sky +
+                     " will ever send arrives at once");
+  };
+  const auto in = flash("falls through the inner horizon", "of region III"),
+             out = flash("rises through the inner horizon", "of region I"),
+             next = flash("rises through the inner horizon", "of the next universe"),
+             before = flash("falls through the horizon", "of region I");
+  EXPECT_THAT(texts("0.9"), ElementsAre(in, out, before, in, next));
+  EXPECT_THAT(texts("1"), ElementsAre(out, before, next));
+  EXPECT_THAT(texts("0.9", "sky: {region_I: {gain: 0, stars: none}}\n"), ElementsAre(in, in, next));
+  EXPECT_THAT(texts("0"), IsEmpty());
+}
+
 TEST_F(TitleWarnings, AreOfATitleWithoutInk) {
   const auto nothing = HasSubstr("writes nothing");
   EXPECT_THAT(texts("text: \"\\u00A0\", height_deg: 3"), ElementsAre(nothing));
