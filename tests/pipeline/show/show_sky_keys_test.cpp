@@ -100,8 +100,8 @@ TEST_F(ShowSkyKeys, TheBlackOfAMapIsItsOwnUnlessTheShowSaysIt) {
   const auto levels = [this](const std::string& sky) {
     const Show show = with("sky: {" + sky + "}\n");
     Levels found;
-    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII, SkyRegion::kIV}) {
-      const auto* map = std::get_if<PanoramaSky>(&show.sky[sky].background);
+    for (const SkyRegion at : {SkyRegion::kI, SkyRegion::kIII, SkyRegion::kIV}) {
+      const auto* map = std::get_if<PanoramaSky>(&show.sky[at].background);
       found.push_back(map ? map->black : std::nullopt);
     }
     return found;
