@@ -28,6 +28,8 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   std::string skies, tables;
   for (const SkyRegion which : kEverySky) {
     const FramePlan::Sky& sky = plan[which];
+    // Only a charged hole leads to it.
+    if (which == SkyRegion::kNext && !sky.background && !sky.stars) continue;
     skies += fmt::format("{}sky {}: {}, {}", skies.empty() ? "" : "; ", name_of(which),
                          sky.background ? "background" : "no background",
                          sky.stars ? "stars" : "no stars");

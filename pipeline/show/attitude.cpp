@@ -121,6 +121,10 @@ M33d base_axes(const ObserverState& observer) {
   return sine > 0 ? turned_by(tetrad, axis * (std::atan2(sine, seen.x) / sine)) : tetrad;
 }
 
+M33d base_from_camera(const ObserverState& observer) {
+  return base_axes(observer).transposed() * observer.tetrad_from_camera;
+}
+
 M33d untilted(const M33d& axes, double tilt) { return tilted(axes, -tilt); }
 
 V3d motion_direction(const ObserverState& o) {

@@ -22,6 +22,8 @@ M33d camera_axes(const Camera& camera, const Projection& projection, const Obser
 // do not depend on the tetrad, so that nothing turns where an observer inside goes from one to the
 // other.
 M33d base_axes(const ObserverState& observer);
+// Returns the axes of the observer's camera along these.
+M33d base_from_camera(const ObserverState& observer);
 
 // Returns the angles of a camera that is turned by them, and for a dome that does not lean, from its
 // axes along those of base_axes().

@@ -21,20 +21,16 @@ M33d picture_axes(const Projection& projection) {
                          : from_columns({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
 }
 
-M33d along_base(const ObserverState& observer) {
-  return base_axes(observer).transposed() * observer.tetrad_from_camera;
-}
-
 }  // namespace
 
 M33d world_from_camera(const ObserverState& observer, const Projection& projection) {
-  return in_other(along_base(observer) * picture_axes(projection));
+  return in_other(base_from_camera(observer) * picture_axes(projection));
 }
 
 M33d world_from_audience(const FrameState& state) {
   // Right, front and zenith become right, zenith and back.
   const M33d turned = from_columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
-  return in_other(along_base(state.observer) * state.camera_from_audience * turned);
+  return in_other(base_from_camera(state.observer) * state.camera_from_audience * turned);
 }
 
 M33d base_from_camera(const M33d& world_from_camera, const Projection& projection) {

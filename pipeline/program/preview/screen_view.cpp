@@ -138,7 +138,7 @@ void turn_to(const ScreenLook& look, FrameState& state) {
 
 std::string camera_as_yaml(const Show& show, const FrameState& state, bool turned) {
   if (const auto target = turned ? std::nullopt : target_as_yaml(show, state)) return *target;
-  M33d axes = base_axes(state.observer).transposed() * state.observer.tetrad_from_camera;
+  M33d axes = base_from_camera(state.observer);
   double tilt = 0;
   if (has_zenith(show.projection)) {
     if (!has_zenith(state.projection)) axes = dome_around(axes);

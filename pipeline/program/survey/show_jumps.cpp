@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/program/survey/show_survey.h"
+#include "pipeline/show/attitude.h"
 #include "pipeline/show/observer_track.h"
 #include "pipeline/sources/disc/disc_pattern.h"
 
@@ -56,9 +56,8 @@ double angle_between(const M33d& a, const M33d& b) {
 }
 
 M33d on_sky(const ObserverState& o) {
-  const auto axis = [&o](int k) {
-    return apply(o.sky_from_tetrad, column(o.tetrad_from_camera, k));
-  };
+  const M33d camera = base_from_camera(o);
+  const auto axis = [&](int k) { return apply(o.sky_from_tetrad, column(camera, k)); };
   return from_columns(axis(0), axis(1), axis(2));
 }
 
@@ -69,10 +68,11 @@ FramePair compare(const Show& show, const FrameState& a, const FrameState& b) {
   FramePair pair{.turn = angle_between(on_sky(a.observer), on_sky(b.observer)),
                  .stops = b.settings.ev - a.settings.ev,
                  .segment = a.segment};
-  // The turn against the hole is that in the tetrad, whose first axis is radial.
-  if (!is_flat(a.observer) && a.observer.tetrad == b.observer.tetrad)
-    pair.turn = std::min(
-        pair.turn, angle_between(a.observer.tetrad_from_camera, b.observer.tetrad_from_camera));
+  // The turn against the hole is that in the tetrad, whose first axis is radial.  Near a charge it does
+  // not depend on the tetrad.
+  if (!is_flat(a.observer) && (a.observer.tetrad == b.observer.tetrad || show.spacetime.leads_on()))
+    pair.turn = std::min(pair.turn,
+                         angle_between(base_from_camera(a.observer), base_from_camera(b.observer)));
   // Rings look the same however they turn.
   if (show.disc && show.disc->pattern && !std::holds_alternative<RingPattern>(*show.disc->pattern))
     pair.gas = angular_velocity(std::max(show.disc->inner, kPlungesBelow)) *

@@ -87,7 +87,7 @@ TEST_F(Surveys, RegionsAreNamedInTheOrderVisited) {
 TEST_F(Surveys, RegionsOfEveryUniverseAreNamed) {
   const ShowSurvey s = survey(
       read("frames_per_second: 1\nblack_hole: {mass_solar: 4e6, charge: 0.5}\ntimeline:\n"
-           "  - {duration_s: 3, trajectory: {type: infall, rest_r: 1e4, rate_m_per_s: 3e6}}\n"
+           "  - {duration_s: 3, trajectory: {type: infall, rest_r: 1e4, rate_m_per_s: 1.6e6}}\n"
            "  - {duration_s: 3, trajectory: {type: static, r: 9}}\n"));
   using enum Region;
   EXPECT_EQ(s.segments[0].visits,

@@ -159,9 +159,10 @@ TEST(StarImageFinder, PutsStarsOfBothSkiesOfAWormholeWhereTheSkiesAre) {
   for (const double l : {3.0, -3.0}) {
     const Show show = show_in_wormhole(l, Domemaster{512});
     FrameState state = frame_state(show, 0);
-    for (const SkyRegion sky : kExteriorSkies) state.settings.sky[sky].max_magnitude = 99;
+    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII})
+      state.settings.sky[sky].max_magnitude = 99;
     const FrameScene scene = scene_with(show, state);
-    for (const SkyRegion sky : kExteriorSkies) {
+    for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
       const StarImageFinder finder(scene, sky);
       int images = 0;
       for (int k = 0; k < 20; ++k) {
