@@ -90,6 +90,25 @@ inline Show starry(Show show) {
   return show;
 }
 
+// A place near a charge, in any region and universe.
+struct ChargedPlace {
+  double charge, r;
+  Region region = Region::kI;
+  Tetrad tetrad = Tetrad::kRain;
+  int universe = 0;
+  Celerity<ReferenceTetrad> celerity{0, 0, 0};
+};
+
+// The first frame of a show, seen from there.
+inline FrameState state_near_charge(const Show& show, const ChargedPlace& place) {
+  FrameState state = frame_state(show, 0);
+  ObserverState& o = state.observer;
+  o.spacetime = ChargedHole(1, place.charge);
+  o.r = place.r, o.region = place.region, o.tetrad = place.tetrad, o.universe = place.universe;
+  o.celerity = place.celerity;
+  return state;
+}
+
 // The plan of a frame that shows these skies, whatever the show has instead of them.
 inline FramePlan plan_with(const Show& show, const FrameState& state,
                            const PerSky<const Sky*>& skies) {

@@ -27,11 +27,12 @@ struct GridScene {
   PixelShader shader;
   RayGrid grid;
 
-  explicit GridScene(const Show& shown)
+  explicit GridScene(const Show& shown) : GridScene(shown, frame_state(shown, 0)) {}
+  GridScene(const Show& shown, const FrameState& at)
       : show(shown),
-        state(frame_state(show, 0)),
+        state(at),
         sky{std::make_shared<const SkyMap>(map_of_panorama(clouds())), nullptr, {}},
-        scene(scene_with(show, state, {&sky, &sky, nullptr})),
+        scene(scene_with(show, state, {&sky, &sky, nullptr, &sky})),
         shader(scene) {
     grid.make(shader, special_directions(scene));
   }
@@ -82,13 +83,16 @@ Worst worst_of(const GridScene& g) {
   return worst;
 }
 
-void expect_close(const Show& show, const std::string& what, double least_part = 0) {
-  const GridScene g(show);
+void expect_close(const GridScene& g, const std::string& what, double least_part = 0) {
   const Worst worst = worst_of(g);
   EXPECT_LT(worst.direction, RayGrid::kTolerance) << what;
   EXPECT_LT(worst.gain, 2e-3) << what;
   EXPECT_GE(1 - g.grid.traced_fraction(), least_part) << what;
   EXPECT_GT(worst.pixels + (least_part > 0 ? 0u : 1u), 0u) << what;
+}
+
+void expect_close(const Show& show, const std::string& what, double least_part = 0) {
+  expect_close(GridScene(show), what, least_part);
 }
 
 const std::vector<Projection>& projections() {
@@ -120,6 +124,24 @@ TEST(RayGrid, IsRightToAHundredthOfAPixelAtAnySpeed) {
             show_of(GivenVelocity{r < 2 ? Region::kII : Region::kI, Tetrad::kRain, r, along}, p),
             "u = " + std::to_string(celerity) + ", r = " + std::to_string(r));
       }
+}
+
+TEST(RayGrid, IsRightToAHundredthOfAPixelBeyondTheHorizonsOfACharge) {
+  constexpr Tetrad kOut = Tetrad::kOutgoing;
+  const Celerity<ReferenceTetrad> fast(0.3, -2, 5);
+  for (const ChargedPlace& place :
+       {ChargedPlace{0.8, 0.3999, Region::kV}, ChargedPlace{0.8, 0.399, Region::kV},
+        ChargedPlace{0.8, 0.399, Region::kV, kOut}, ChargedPlace{0.8, 0.2, Region::kV},
+        ChargedPlace{0.8, 0.3, Region::kV, kOut, 0, fast},
+        ChargedPlace{0.8, 0.9, Region::kIV, kOut, 1}, ChargedPlace{0.8, 1.7, Region::kI, kOut, 1},
+        ChargedPlace{0.8, 4, Region::kI, kOut, 1, fast}, ChargedPlace{0.8, 7, Region::kI, kOut, 1},
+        ChargedPlace{1, 0.9, Region::kV}, ChargedPlace{1.02, 3}, ChargedPlace{1.06066, 4},
+        ChargedPlace{1.0607, 4}, ChargedPlace{1.2, 1.4}, ChargedPlace{5, 2}})
+    for (const Projection& p : projections()) {
+      const Show show = show_of(StaticObserver{10}, p);
+      expect_close(GridScene(show, state_near_charge(show, place)),
+                   std::to_string(place.charge) + " " + std::to_string(place.r));
+    }
 }
 
 // A block of cells holds the same pixels as their rows.

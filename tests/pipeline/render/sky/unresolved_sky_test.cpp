@@ -37,6 +37,32 @@ TEST(UnresolvedSkies, DoNotTwinkleBetweenPixels) {
     EXPECT_NEAR(light_of_region_three(1e-6, aside, 128) / middle, 1, 2e-3) << aside;
 }
 
+// The light of the own sky that arrives by way of the core, within a dark ring about the middle, at
+// this distance inside the inner horizon in parts of its radius.
+double light_from_the_core(double depth, double aside_pixels, int size) {
+  Show show = show_of(StaticObserver{10}, Domemaster{size});
+  show.sky[SkyRegion::kI].background = PanoramaSky{small_panorama()};
+  show.timeline[0].camera.elevation = (90 * kDegree) - aside_pixels * std::numbers::pi / size;
+  const double inner = ChargedHole(1, 0.8).inner_horizon();
+  const HalfFrame frame =
+      Renderer(show, 2).render(state_near_charge(show, {0.8, inner * (1 - depth), Region::kV}));
+  double sum = 0;
+  const int reach = size / 16;  // a quarter of the ring's radius
+  for (int y = size / 2 - reach; y < size / 2 + reach; ++y)
+    for (int x = size / 2 - reach; x < size / 2 + reach; ++x) sum += frame.row(y)[3 * x];
+  return sum / (size * size);
+}
+
+TEST(UnresolvedSkies, TheCoreBringsTheSameLightHoweverSmallItIs) {
+  const double last = light_from_the_core(1e-7, 0, 128);
+  EXPECT_GT(last, 0);
+  for (const double depth : {1e-4, 1e-5, 1e-6})
+    EXPECT_NEAR(light_from_the_core(depth, 0, 128) / last, 1, 0.02) << depth;
+  for (const double aside : {0.25, 0.5, 0.75, 1.3})
+    EXPECT_NEAR(light_from_the_core(1e-5, aside, 128) / last, 1, 0.02) << aside;
+  EXPECT_NEAR(light_from_the_core(1e-5, 0, 256) / last, 1, 0.02);
+}
+
 TEST(UnresolvedSkies, AreNotSoughtWhereNothingIsCrowded) {
   const Show show = starry(show_of(StaticObserver{10}, Domemaster{128}));
   const FrameState state = frame_state(show, 0);
