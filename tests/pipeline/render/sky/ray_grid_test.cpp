@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "pipeline/render/sky/sky_pass.h"
 #include "pipeline/sources/sky/panorama.h"
 #include "tests/pipeline/render/scenes.h"
@@ -28,9 +30,9 @@ struct GridScene {
   RayGrid grid;
 
   explicit GridScene(const Show& shown) : GridScene(shown, frame_state(shown, 0)) {}
-  GridScene(const Show& shown, const FrameState& at)
-      : show(shown),
-        state(at),
+  GridScene(Show shown, FrameState at)
+      : show(std::move(shown)),
+        state(std::move(at)),
         sky{std::make_shared<const SkyMap>(map_of_panorama(clouds())), nullptr, {}},
         scene(scene_with(show, state, {&sky, &sky, nullptr, &sky})),
         shader(scene) {
@@ -183,7 +185,7 @@ TEST(RayGrid, SparesNearlyAllViewRaysOfALargeImage) {
 
 Show without_stars(const Trajectory& t, const Projection& p) {
   Show show = starry(show_of(t, p));
-  for (const SkyRegion sky : kExteriorSkies) {
+  for (const SkyRegion sky : {SkyRegion::kI, SkyRegion::kIII}) {
     show.sky[sky].stars.reset();
     // Next to black a small error of the light is a large part of what is left.
     std::get<PanoramaSky>(show.sky[sky].background).black = 0;
