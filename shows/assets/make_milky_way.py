@@ -50,6 +50,8 @@ DUST_REDDENING = 0.06  # of B-V, where dust takes a factor of e of the light aro
 STAR_SATURATION, STAR_CONTRAST = 1.0, 1.3  # of the colours of starlight; in B-V, about 0.65
 BLUER = 0.14  # in B-V, so that the darkest parts of the sky are near white
 MANTISSA = 7  # bits that are kept of halves' 10: steps of 0.8 %, a third of an eye's
+SOURCES = ("Axel Mellinger, Univ. of Potsdam (panorama); ESA, Tycho-2 (light of the stars); "
+           "Olaf Frohn, d3-celestial (nebulae and galaxies)")
 
 
 def temperature(b_v):
@@ -137,15 +139,13 @@ def rounded(sky):
     return ((bits + (1 << (drop - 1))) >> drop << drop).view(np.float32)
 
 
-def write(sky, out, without):
+def write(sky, out, description, copyright_line):
     spec = oiio.ImageSpec(sky.shape[1], sky.shape[0], 3, oiio.HALF)
     spec.attribute("compression", "zip")
     spec.attribute("oiio:ColorSpace", "lin_srgb")
-    spec.attribute("ImageDescription", f"The sky without {without}, linear Rec.709, "
-                   "1 = 1e-4 cd/m^2; see PROVENANCE.md")
-    spec.attribute("Copyright", "Axel Mellinger, Univ. of Potsdam (panorama); "
-                                "ESA, Tycho-2 (light of the stars); "
-                                "Olaf Frohn, d3-celestial (nebulae and galaxies)")
+    spec.attribute("ImageDescription",
+                   f"{description}, linear Rec.709, 1 = 1e-4 cd/m^2; see PROVENANCE.md")
+    spec.attribute("Copyright", copyright_line)
     spec.attribute("DateTime", "2026:11:22 00:00:00")  # else that of writing
     file = oiio.ImageOutput.create(out)
     if not (file and file.open(out, spec) and file.write_image(rounded(sky)) and file.close()):
@@ -160,8 +160,9 @@ def main():
     panorama, tycho2, archive, folder = sys.argv[1:]
     catalogue = Catalogue(archive)
     whole, deep = make(panorama, tycho2, catalogue)
-    write(whole * S10, f"{folder}/milky_way.exr", "stars of V <= 9")
-    write(halved(deep) * S10, f"{folder}/milky_way_deep.exr", "the stars of Tycho-2")
+    write(whole * S10, f"{folder}/milky_way.exr", "The sky without stars of V <= 9", SOURCES)
+    write(halved(deep) * S10, f"{folder}/milky_way_deep.exr",
+          "The sky without the stars of Tycho-2", SOURCES)
     sys.exit(milky_way_check.check(folder, catalogue))
 
 

@@ -36,11 +36,12 @@ install(FILES ${maps}
   ${assets_source}/dome.ocio ${assets_source}/figures.csv ${assets_source}/sky_places.csv ${assets_source}/star_corrections.csv
   ${assets_source}/stars_to_8.csv ${assets_source}/stars_to_9.stars
   ${assets_source}/milky_way.exr ${assets_source}/milky_way_deep.exr
+  ${assets_source}/far_sky.exr ${assets_source}/far_stars.stars
   DESTINATION ${data}/assets)
 install(PROGRAMS ${assets_source}/fetch_stars DESTINATION ${data}/assets)
 install(DIRECTORY shows/ DESTINATION ${data}/shows FILES_MATCHING
   PATTERN "*.yaml" PATTERN assets EXCLUDE)
-# The paper's figures name ../assets/stars_to_8.csv, as in the source tree.
+# Shows name assets/far_sky.exr and ../assets/stars_to_8.csv, as in the source tree.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/installed)
 file(CREATE_LINK ../assets ${PROJECT_BINARY_DIR}/installed/assets SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/installed/assets DESTINATION ${data}/shows)

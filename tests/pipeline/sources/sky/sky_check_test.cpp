@@ -10,6 +10,7 @@
 #include "pipeline/sources/sky/panorama.h"
 #include "pipeline/sources/stars/star_catalogue.h"
 #include "tests/source_tree.h"
+#include "trajectories/degree.h"
 #include "trajectories/equatorial.h"
 
 namespace domefall {
@@ -230,6 +231,31 @@ TEST(MilkyWay, HasItsCloudsWhereTheSkyHasThem) {
   // stars.  The rest is 0.16.
   EXPECT_LT(galactic_pole, 0.2);
   EXPECT_GT(galactic_pole, 0.13);
+}
+
+// Its galaxy is ahead of those who come through a wormhole that stands where one does by default, is
+// redder in its heart than in its arms, and ends: the far side of that sky is dark.
+TEST(FarSky, HasItsGalaxyAheadAndItsClusterWhereItsStarsAre) {
+  const std::string assets = source_file("shows/assets/");
+  const SkyMap map = map_of_panorama(read_image(assets + "far_sky.exr").pixels, 512);
+  const auto colour = [&map](double ra, double dec, double radius) {
+    return map.sample(sky_direction(ra, dec).v, radius * kDegree);
+  };
+  const auto light = [&](double ra, double dec) {
+    return luminance_of(colour(ra, dec, 1)) / kPanoramaUnit;
+  };
+  EXPECT_GT(light(266.405, -28.936), 20);
+  EXPECT_GT(light(256.5, -47.4), 0.5);
+  EXPECT_NEAR(light(86.405, 28.936), 0.0084, 0.0005);
+  const auto heart = colour(266.405, -28.936, 2), arms = colour(266.405, -28.936, 25);
+  EXPECT_GT(heart.r / heart.b, 1.3 * arms.r / arms.b);
+  V3d sum(0, 0, 0);
+  const StarCatalogue catalogue = read_star_catalogue(assets + "far_stars.stars", 9);
+  EXPECT_EQ(catalogue.stars.size(), 29281u);
+  for (const Star& star : catalogue.stars) sum += star.direction.v;
+  const V3d cluster = sky_direction(179.34, -29.27).v;
+  EXPECT_GT(sum.normalized().dot(cluster), std::cos(2 * kDegree));
+  EXPECT_NEAR(light(179.34, -29.27), 0.65, 0.05);
 }
 
 }  // namespace
