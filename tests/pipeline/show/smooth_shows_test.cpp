@@ -202,6 +202,18 @@ INSTANTIATE_TEST_SUITE_P(Productions, SmoothShows,
                                          "there_and_back"),
                          [](const auto& show) { return std::string(show.param); });
 
+// From beyond the camera looks back at the mouth, in the middle of the front half way up the dome.
+using ThereAndBack = SmoothShows;
+TEST_F(ThereAndBack, LooksBackAtTheMouth) {
+  const Show show = production("there_and_back");
+  for (const double at_s : {92.0, 97.0, 102.0}) {
+    const FrameState state = frame_state(show, static_cast<int>(at_s * kFramesPerSecond));
+    EXPECT_EQ(state.observer.region, Region::kIII);
+    const V3d mouth = on_dome(state.observer, {1, 0, 0}).at;
+    EXPECT_LT(angle(mouth, {0, std::cos(45 * kDegree), std::sin(45 * kDegree)}), 0.01) << at_s;
+  }
+}
+
 using AJumpEditedIn = SmoothShows;
 
 std::string edited(std::string text, const std::string& from, const std::string& to) {
