@@ -74,6 +74,13 @@ double ChargedHole::last_stable_orbit() const {
   return 2 + 2 * m * (c > 1 ? std::cosh(std::acosh(c) / 3) : std::cos(std::acos(c) / 3));
 }
 
+double ChargedHole::circling_time(double r) const {
+  const Long q2 = charge_long() * charge_long();
+  const Long below =
+      has_light_circle() ? (r - circle()) * (r - 3 + circle()) : Long{r} * (r - 3) + 2 * q2;
+  return static_cast<double>(std::sqrt(below / (r - q2)));
+}
+
 // Of r_- - r_x it is known that (r_- - r_c)^2 (r_- - r_x) (r_- + r_c + kappa/sqrt(r_c)) = r_-^4.
 Long ChargedHole::edges_below_inner() const {
   const Long c = circle(), r = inner_radius(), square = r * r / (c - r);

@@ -57,7 +57,7 @@ std::optional<ChargedOrbit> read_escape(const Section& s, const ChargedHole& hol
     return made(s, *by, [&] { return ChargedOrbit::by_periastron(hole, *r, 0); });
   const auto l = s.given("angular_momentum");
   if (!l) return std::nullopt;
-  return made(s, *by, [&] { return ChargedOrbit::through(hole, kFarthest, 0, *l); });
+  return made(s, *by, [&] { return ChargedOrbit::scattered(hole, 0, *l); });
 }
 
 std::optional<ChargedOrbit> read_scattering(const Section& s, const ChargedHole& hole) {
@@ -71,7 +71,7 @@ std::optional<ChargedOrbit> read_scattering(const Section& s, const ChargedHole&
   const auto b = s.given("impact_parameter");
   if (!b) return std::nullopt;
   return made(s, *by, [&] {
-    return ChargedOrbit::through(hole, kFarthest, excess, *b * std::sqrt(excess));
+    return ChargedOrbit::scattered(hole, excess, *b * std::sqrt(excess));
   });
 }
 
@@ -104,13 +104,13 @@ std::optional<ChargedOrbit> read_fall(const Section& s, const Item& item, const 
   const auto from_r = s.required("from_r");
   if (!from_r) return std::nullopt;
   if (!s.find("v_inf"))
-    return made(s, item, [&] { return ChargedOrbit::through(hole, *from_r, 0, momentum); });
+    return made(s, item, [&] { return ChargedOrbit::falling(hole, *from_r, 0, momentum); });
   const auto v = s.given("v_inf");
   const double b = s.number("impact_parameter", 0);
   if (!v) return std::nullopt;
   const double excess = *v * *v / ((1 - *v) * (1 + *v));
   return made(s, item,
-              [&] { return ChargedOrbit::through(hole, *from_r, excess, b * std::sqrt(excess)); });
+              [&] { return ChargedOrbit::falling(hole, *from_r, excess, b * std::sqrt(excess)); });
 }
 
 }  // namespace
@@ -141,7 +141,7 @@ std::optional<TimedTrajectory> read_charged_fall(const Item& item, const Stage& 
   if (!orbit) return std::nullopt;
   // A fall from rest begins where it rests.
   Defaults start;
-  if (s.find("rest_r")) start = from_apoastron(*orbit);
+  if (s.find("rest_r")) start.tau = start.after = 0;
   if (hole_of(stage).inner_horizon() > 0) start.to_r = hole_of(stage).inner_horizon() * 1.001;
   return timed(s, stage, *orbit, start, item);
 }
