@@ -16,8 +16,6 @@ struct StaticObserver {
   static bool is_at_rest(const Spacetime&) { return true; }
 };
 
-inline constexpr double kStaticInnermost = Schwarzschild::horizon();  // r must exceed it
-
 // Returns the celerity of what is at rest near a Schwarzschild hole, for r != 2 (observer_state.h).  d/dt
 // is T + s R in rain and T - s R in the outgoing frame, with s = sqrt(2/r).
 Celerity<ReferenceTetrad> resting_celerity(double r, Tetrad tetrad = Tetrad::kRain);

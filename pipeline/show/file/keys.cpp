@@ -28,7 +28,8 @@ constexpr std::string_view kRows = R"(
 | `leg` | `inward` or `outward`: the first one at which r falls, or grows, there | the first of either |
 ## black_hole
 | `mass_solar` | 0 to 1e13 solar masses; 0 is flat space: from 1e-20 on, or 0 for no hole | [0] |
-| `charge` | 0 to 1: its electric charge in units of its mass, [below](#a-charged-hole) | [0] |
+| `charge` | 0 to 100: its electric charge in units of its mass, [below](#a-charged-hole); above 1 with | [0] |
+| `naked` | `true` or `false`: whether a charge above 1 is meant, which no horizon hides | [`false`] |
 | `at` | where the hole stands on the sky at the start: a [place on the sky](#places-on-the-sky) | [266.405, -28.936: the galactic centre] |
 | `heading_deg` | -360 to 360: in which direction orbits set out, from north through east | [90] |
 ## wormhole
@@ -122,9 +123,13 @@ constexpr std::string_view kRows = R"(
 | `orbits` | 0 to 1e6 revolutions: how many orbits in the segment | |
 ## infall in a wormhole
 | `from_l` | -1e9 to 1e9 radii of the throat: where the segment begins | required |
-| `to_l` | -1e9 to 1e9: where it ends, beyond the throat if it has the other sign | |
 | `speed` | above 0, below 1 speed of light = 1: of the free fall, everywhere | required |
 | `impact_parameter` | 0 to 1e9 radii of the throat: below 1 it passes the throat, above it turns where r is that | [0] |
+## thrown in a wormhole
+| `from_l` | -1e9 to 1e9 radii of the throat: where it is thrown | required |
+## end in a wormhole
+| `to_l` | -1e9 to 1e9: where it ends, beyond the throat if it has the other sign | |
+| `to_tau_m` | -1e15 to 1e15: the end by proper time | |
 ## path in a wormhole
 | `keyframes` | a list of places and times, with the keys below | required |
 ## keyframes in a wormhole
