@@ -80,7 +80,7 @@ END
 
 # Without gnuplot nothing is begun.
 mkdir empty
-exits 2 env PATH="$folder/empty" "$DOMEFALL" report --out none --quick
+exits 75 env PATH="$folder/empty" "$DOMEFALL" report --out none --quick
 says 'gnuplot-nox'
 [ ! -e none ] || fail "a report was begun that could not be drawn"
 
