@@ -194,4 +194,17 @@ ChargedHole::CriticalTangents ChargedHole::critical_tangents(const ChargedRadius
   return {true, middle - x, f / (middle - x), 2 * x};
 }
 
+// r* = r + (1 + k) ln(r - r_+) + (1 - k) ln(r - r_-) with k = (2 - q^2)/(2 d).  Where the horizons
+// are one, the terms with k are -(2 - q^2)/(r - 1) together.
+PixelTortoise::PixelTortoise(const ChargedHole& hole)
+    : outer_(hole.horizon()), inner_(hole.inner_horizon()) {
+  const Long q = hole.charge_long(), d = std::sqrt(hole.horizon_distance_squared());
+  const Long k = d > 0 ? (2 - q * q) / (2 * d) : 0;
+  by_outer_ = static_cast<double>(1 + k);
+  by_inner_ = static_cast<double>(1 - k);
+  pole_ = d > 0 ? 0 : 1;
+  constexpr double kSomewhere = 10;
+  shift_ = hole.tortoise(kSomewhere) - at(kSomewhere, [](double x) { return std::log(x); });
+}
+
 }  // namespace domefall

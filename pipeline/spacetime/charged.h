@@ -160,4 +160,22 @@ struct ChargedHole {
   long double edges_below_inner() const;  // r_- - r_x, q <= 1
 };
 
+// A PixelTortoise gives r* outside the horizon to pixels, by a logarithm of their own.  On the
+// horizon, where r* is infinite, a finite number stands for it.  The error is below 1e-8.
+class PixelTortoise {
+ public:
+  explicit PixelTortoise(const ChargedHole& hole);
+
+  template <class Logarithm>
+  double at(double r, const Logarithm& logarithm) const {
+    constexpr double kLeast = 1e-9;
+    const double outer = r - outer_ > kLeast ? r - outer_ : kLeast, inner = r - inner_;
+    const double pole = pole_ > 0 ? pole_ / outer : 0;
+    return shift_ + r + by_outer_ * logarithm(outer) + by_inner_ * logarithm(inner) - pole;
+  }
+
+ private:
+  double outer_, inner_, by_outer_, by_inner_, pole_, shift_ = 0;
+};
+
 }  // namespace domefall
