@@ -414,9 +414,10 @@ ChargedOrbit ChargedOrbit::falling(const ChargedHole& hole, double r, double exc
 
 ChargedOrbit ChargedOrbit::thrown(const ChargedHole& hole, double r, double radial,
                                   double tangential) {
-  require_above(
-      "r", "units of M", r, hole.horizon(),
-      hole.is_naked() ? "it is a radius" : "nothing rests at the horizon or inside, to throw from");
+  if (!(r < hole.inner_horizon()))
+    require_above("r", "units of M", r, hole.horizon(),
+                  hole.is_naked() ? "it is a radius"
+                                  : "nothing rests at the horizons or between, to throw from");
   const Space s(hole);
   const Wide w = 1 / Wide(r), f = s.f(w), u2 = Wide(radial) * radial, l = Wide(r) * tangential;
   const Constants c{f * (u2 + Wide(tangential) * tangential) + (f - 1), l * l};
@@ -426,7 +427,7 @@ ChargedOrbit ChargedOrbit::thrown(const ChargedHole& hole, double r, double radi
 
 ChargedOrbit ChargedOrbit::thrown_from_tetrad(const ChargedHole& hole, double r, double radial,
                                               double tangential) {
-  require_above("r", "units of M", r, hole.inner_horizon(), "inside it nothing is thrown");
+  require_above("r", "units of M", r, 0, "it is a radius");
   const Space s(hole);
   const Wide w = 1 / Wide(r), f = s.f(w), l = Wide(r) * tangential;
   const Wide gamma = sqrt(Wide(1 + Wide(radial) * radial + Wide(tangential) * tangential));

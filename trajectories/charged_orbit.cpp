@@ -145,6 +145,7 @@ ChargedOrbit ChargedOrbit::counted_from(const ChargedTurns& turns, double above,
   const double q = orbit.tables_->where(above, below),
                from_periastron = orbit.tables_->times.to_go(q).tau;
   orbit.start_ = leg == Leg::kOutward ? from_periastron : -from_periastron;
+  orbit.rises_ = leg == Leg::kOutward && turns.near + above > turns.hole.horizon();
   const OrbitPoint point = orbit.own_point(orbit.start_);
   orbit.start_azimuth_ = point.azimuth;
   orbit.start_null_time_ = point.null_time;
@@ -193,8 +194,8 @@ OrbitPoint ChargedOrbit::own_point(const ProperTime& own) const {
   const Tables::Place p = t.place(q);
   const FlightTable::Times sums = t.times.to_go(q);
   const bool passed = t.passes() && grows;
-  // What rises from its beginning is in rain.
-  const bool rises = turns == 0 && double(start_) > 0 && own >= start_;
+  // What rises from its beginning outside is in rain.
+  const bool rises = rises_ && turns == 0 && own >= start_;
   OrbitPoint point;
   point.r = p.r;
   point.tetrad = passed && !rises ? Tetrad::kOutgoing : Tetrad::kRain;

@@ -8,8 +8,8 @@
 //   scattered  r = r_p cosh^2 s                    bound  r = r_p + (r_a - r_p) sin^2(s/2)
 //
 // tau = 0, azimuth 0 and t = 0 are at the periastron, so that r is even in tau and azimuth odd.  For
-// falls and throws they are at the given place instead.  What rises from there is given in rain up
-// to its next periastron.
+// falls and throws they are at the given place instead.  What rises from there outside of a hole is
+// given in rain up to its next periastron.
 // Proper time, azimuth and null time are quadratures (flight_table.h), made once.  Orbits beyond r =
 // 1e10 M are not tabulated.
 //
@@ -91,6 +91,7 @@ class ChargedOrbit {
   double start_azimuth_ = 0;
   DoubleDouble start_null_time_{};
   int start_universe_ = 0;
+  bool rises_ = false;
 };
 
 // A ChargedCircle is a geodesic circular orbit (circling_time() of charged.h).

@@ -1,5 +1,5 @@
-// A StaticObserver is held at constant r, outside the horizon.  In flat space it is an observer at
-// rest.
+// A StaticObserver is held at constant r, outside the horizon or, in region V, inside an inner one.  In
+// flat space it is an observer at rest.
 #pragma once
 
 #include "pipeline/spacetime/schwarzschild.h"

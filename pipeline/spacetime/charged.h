@@ -58,7 +58,6 @@ struct ChargedHole {
 
   // Returns r_+, the r that region I lies above, or 0 for a naked singularity.
   double horizon() const { return is_naked() ? 0 : static_cast<double>(outer_horizon()); }
-  double innermost() const { return inner_horizon(); }
   double inner_horizon() const { return is_naked() ? 0 : static_cast<double>(inner_radius()); }
   double above_horizon(double r) const { return is_naked() ? r : at(r).above_outer; }
   // Returns r_c, or 0 where light cannot circle (q^2 > 9/8).

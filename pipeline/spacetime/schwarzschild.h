@@ -47,7 +47,6 @@ struct Schwarzschild {
 
   static StaticTime static_time(double r) { return {1, free_fall_speed(r)}; }
   static double fall_celerity(double) { return 0; }  // the rain tetrad itself
-  static double innermost() { return 0; }
 
   // Returns 1 - s, by (1 - s^2)/(1 + s), which does not cancel next to the horizon.
   static double below_light_speed(const Radius& at) {

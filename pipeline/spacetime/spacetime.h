@@ -33,7 +33,6 @@ struct FlatSpace {
   static double circling_time(double) { return 0; }
   static StaticTime static_time(double) { return {}; }
   static double fall_celerity(double) { return 0; }
-  static double innermost() { return 0; }
   static double lapse_squared(double) { return 1; }
   static double lapse_squared_above(double, double) { return 1; }
   static double resting_celerity(double) { return 0; }
@@ -133,10 +132,6 @@ class Spacetime {
   // Returns gamma v along R, against rain, of free fall from rest at infinity.
   double fall_celerity(double r) const {
     return std::visit([r](const auto& kind) { return kind.fall_celerity(r); }, kind_);
-  }
-  // Returns the r that no light is drawn at or below, or 0.
-  double innermost() const {
-    return std::visit([](const auto& kind) { return kind.innermost(); }, kind_);
   }
   // Returns r*, with which v = t + r* and u = t - r* are the times of light that falls and rises.
   double tortoise(double r) const {

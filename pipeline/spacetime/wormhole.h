@@ -76,7 +76,6 @@ struct Wormhole {
   static constexpr double circling_time(double) { return 0; }
   static StaticTime static_time(double) { return {}; }
   static double fall_celerity(double) { return 0; }
-  static constexpr double innermost() { return 0; }
   static double lapse_squared(double) { return 1; }
   static double lapse_squared_above(double, double) { return 1; }
   static double resting_celerity(double) { return 0; }

@@ -14,6 +14,19 @@ Range resting_radii(const Stage& stage) {
       .at_most(kFarthest);
 }
 
+std::optional<double> read_resting_radius(const Section& s, const Stage& stage,
+                                          std::string_view key, const Range& outside) {
+  const double inner = stage.spacetime.inner_horizon();
+  if (!(inner > kNearest)) return s.required(key, outside);
+  const auto r = s.required(key, kUnitsOfM.at_least(kNearest).at_most(kFarthest));
+  if (r && !(*r > stage.spacetime.horizon() || *r < inner))
+    return s.find(key)->fail(fmt::format(
+        "must exceed {} (units of M), or stay below {}, got {}: nothing rests at the horizons or "
+        "between them",
+        short_number(stage.spacetime.horizon()), short_number(inner), as_written(*s.find(key))));
+  return r;
+}
+
 Range circling_radii(const Stage& stage) {
   const auto* hole = std::get_if<ChargedHole>(&stage.spacetime.kind());
   if (hole && hole->is_naked())

@@ -26,9 +26,10 @@ std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage,
         given->fail("needs a black hole; in flat space leave it out");
     return TimedTrajectory{StaticObserver{}, timing, {}};
   }
-  const auto r = s.required("r", kUnitsOfM.above(stage.spacetime.horizon())
-                                     .because("nothing holds still at or inside the horizon")
-                                     .at_most(kFarthest));
+  const auto r = read_resting_radius(s, stage, "r",
+                                     kUnitsOfM.above(stage.spacetime.horizon())
+                                         .because("nothing holds still at or inside the horizon")
+                                         .at_most(kFarthest));
   const bool mirrored = is_in_region_three(s);
   // The observer's clock runs in real time, unless a show in which other things move wants another
   // rate.

@@ -91,10 +91,14 @@ struct TimedTrajectory {
 // an engine.
 std::span<const std::string_view> trajectories_of_bodies();
 
-// Returns the r at which an observer can rest, and those of free circular orbits, as far as one range
-// tells.
+// Returns the r at which an observer can rest outside of a hole, and those of free circular orbits, as
+// far as one range tells.
 Range resting_radii(const Stage& stage);
 Range circling_radii(const Stage& stage);
+// Reads the r of an observer at rest, which inside an inner horizon is possible again.  `outside` has
+// those outside.
+std::optional<double> read_resting_radius(const Section& s, const Stage& stage,
+                                          std::string_view key, const Range& outside);
 
 // Reports a trajectory that turns nearer to the singularity than shows may be.  Returns true for
 // others.

@@ -155,7 +155,8 @@ Tetrad tetrad_of(Region region, Against against) {
   if (region == Region::kIV) return Tetrad::kOutgoing;
   if (region == Region::kII) return Tetrad::kRain;
   const bool out = against == Against::kOutgoing;
-  if (region == Region::kI) return out ? Tetrad::kOutgoing : Tetrad::kRain;
+  if (region == Region::kI || region == Region::kV)
+    return out ? Tetrad::kOutgoing : Tetrad::kRain;
   return out ? Tetrad::kOutgoingToThree : Tetrad::kRainOfThree;
 }
 
@@ -177,15 +178,21 @@ std::optional<GivenVelocity> read_frame(const Section& s, const Stage& stage,
         "of constant_t is what rests in t between two horizons, which a charge of 1 or more leaves "
         "no room for");
   const double horizon = stage.spacetime.horizon();
-  const double nearest = std::max(kNearest, stage.spacetime.innermost() * (1 + 1e-6));
-  const auto r = s.required(radius_key, radii(against, region, horizon, nearest));
+  const double inner = stage.spacetime.inner_horizon();
+  // The regions that a show can name, and what rests in t, lie outside of an inner horizon.
+  const bool outside = against == Against::kConstantT || region;
+  const double nearest = outside ? std::max(kNearest, inner * (1 + 1e-6)) : kNearest;
+  const Range range = radii(against, region, horizon, nearest);
+  const auto r = against == Against::kStatic && !region
+                     ? read_resting_radius(s, stage, radius_key, range)
+                     : s.required(radius_key, range);
   if (!r) return std::nullopt;
   if (against != Against::kStatic && std::isnan(stage.spacetime.fall_celerity(*r)))
     return s.find(radius_key)
         ->fail("is where no free fall from rest far away comes, since the charge turns it above");
   GivenVelocity frame;
   frame.r = *r;
-  frame.region = region_of(region, against, *r > horizon);
+  frame.region = *r < inner ? Region::kV : region_of(region, against, *r > horizon);
   frame.tetrad = tetrad_of(frame.region, against);
   // Observers at rest in r or in t move against the tetrad, and so may what falls or is thrown out.
   if (against == Against::kStatic || against == Against::kConstantT)
