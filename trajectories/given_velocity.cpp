@@ -3,9 +3,7 @@
 namespace domefall {
 
 OrbitPoint GivenVelocity::at(const ProperTime& /*tau*/) const {
-  OrbitPoint point{region, tetrad, r, 0, celerity};
-  point.l = l;
-  return point;
+  return {region, tetrad, r, 0, celerity};
 }
 
 bool GivenVelocity::is_at_rest(const Spacetime& spacetime) const {
