@@ -123,8 +123,6 @@ void add_movie_product(FarmPlan& plan, const FarmProducts& products, const Show&
   plan.movie_file = (plan.out / fmt::format("{}_{}.{}", show.file.stem().string(), products.movie,
                                             preset.extension))
                         .string();
-  if (frames.back() - frames.front() + 1 != static_cast<int>(frames.size()))
-    throw InputError("--frames " + plan.frames + ": a movie takes one range, such as 0-299");
   require_graded(show, "--movie");
   if (std::error_code none; fs::is_directory(plan.movie_file, none))
     throw InputError(plan.movie_file + ": is a folder, where --movie would write its file");

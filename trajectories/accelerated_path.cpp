@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/chebyshev_panel.h"
 #include "trajectories/infinity.h"
 #include "trajectories/monotone_cubic.h"
@@ -31,25 +30,20 @@ struct Piece {
 };
 
 struct Rates {
-  double r, radial, tangential, energy2;  // dr/dtau, r dphi/dtau, E^2
+  double r, radial, tangential, lapse2, energy2;  // dr/dtau, r dphi/dtau, f, E^2
 };
 
-Rates rates_of(const Piece& piece, double t) {
+Rates rates_of(const Piece& piece, double t, const Spacetime& spacetime) {
   const double span = piece.end - piece.begin, r = piece.r.at(t);
   const double u = piece.r.slope(t) / span, l = r * piece.azimuth.slope(t) / span;
-  return {r, u, l, u * u + Schwarzschild::lapse_squared(r) * (1 + l * l)};
-}
-
-// E^2 cancels in (1 - E^2) + l^2, which is (2/r)(1 + l^2) - u^2.
-double path_celerity(const Rates& p, bool outgoing) {
-  const double squares = 2 / p.r * (1 + p.tangential * p.tangential) - p.radial * p.radial;
-  return Schwarzschild::radial_celerity(p.r, p.radial, std::sqrt(p.energy2), squares, outgoing);
+  const double f = spacetime.lapse_squared(r);
+  return {r, u, l, f, u * u + f * (1 + l * l)};
 }
 
 double null_rate(const Rates& p, bool outgoing) {
   const double energy = std::sqrt(p.energy2), inward = outgoing ? p.radial : -p.radial;
   return inward >= 0 ? (1 + p.tangential * p.tangential) / (energy + inward)
-                     : (energy - inward) / Schwarzschild::lapse_squared(p.r);
+                     : (energy - inward) / p.lapse2;
 }
 
 // Returns, relative to null_rate, what rounding of r and its slope does to 1 - 2/r and to E.
@@ -58,8 +52,7 @@ double null_noise(const Piece& piece, const Rates& p, bool outgoing) {
                sum = std::sqrt(p.energy2) + std::abs(inward);
   const double place = kIntegrandNoise * piece.r.size() / p.r;
   const double rate = kIntegrandNoise * piece.r.size() / (piece.end - piece.begin);
-  return (inward >= 0 ? place / (sum * sum) : place / std::abs(Schwarzschild::lapse_squared(p.r))) +
-         rate / sum;
+  return (inward >= 0 ? place / (sum * sum) : place / std::abs(p.lapse2)) + rate / sum;
 }
 
 [[noreturn]] void refuse(std::size_t key, double tau, const std::string& why) {
@@ -105,11 +98,12 @@ std::vector<Piece> pieces_of(const std::vector<PathKey>& keys) {
   return pieces;
 }
 
-void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing) {
+void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing,
+                   const Spacetime& spacetime) {
   const double tau = piece.begin + t * (piece.end - piece.begin), r = piece.r.at(t);
   if (!(r > 0)) refuse(key, tau, "after it the path meets the singularity");
-  const Rates p = rates_of(piece, t);
-  if (r > 2) return;
+  const Rates p = rates_of(piece, t, spacetime);
+  if (r > spacetime.horizon() || r < spacetime.inner_horizon()) return;
   const std::string place = "after it, at r = " + short_number(r) + ", ";
   if (!((outgoing ? p.radial : -p.radial) > 0))
     refuse(key, tau,
@@ -119,11 +113,11 @@ void check_instant(const Piece& piece, std::size_t key, double t, bool outgoing)
     refuse(key, tau, place + "the path is faster than light: it must cross r faster, or turn less");
 }
 
-void check_piece(const Piece& piece, std::size_t key, bool outgoing) {
+void check_piece(const Piece& piece, std::size_t key, bool outgoing, const Spacetime& spacetime) {
   for (int k = 0; k <= kSamples; ++k)
-    check_instant(piece, key, static_cast<double>(k) / kSamples, outgoing);
+    check_instant(piece, key, static_cast<double>(k) / kSamples, outgoing, spacetime);
   // The path may touch the horizon between two samples.
-  for (const double t : turns_of(piece.r)) check_instant(piece, key, t, outgoing);
+  for (const double t : turns_of(piece.r)) check_instant(piece, key, t, outgoing, spacetime);
 }
 
 struct NullPanel {
@@ -136,6 +130,7 @@ struct NullPanel {
 }  // namespace
 
 struct AcceleratedPath::Tables {
+  Spacetime spacetime;
   Tetrad tetrad;
   std::vector<Piece> pieces;
   std::vector<NullPanel> panels;
@@ -156,8 +151,8 @@ void AcceleratedPath::Tables::append(std::size_t piece, double low, double high,
   const double middle = (low + high) / 2, half = (high - low) / 2;
   for (std::size_t j = 0; j < kPanelTerms; ++j) {
     const double t = middle + half * panel_node(j);
-    const Rates rates = rates_of(p, t);
-    check_instant(p, piece + 1, t, outgoing);
+    const Rates rates = rates_of(p, t, spacetime);
+    check_instant(p, piece + 1, t, outgoing, spacetime);
     values[j] = null_rate(rates, outgoing);
     noise = std::max(noise, null_noise(p, rates, outgoing));
   }
@@ -189,23 +184,27 @@ double AcceleratedPath::Tables::null_time(std::size_t piece, double t) const {
 }
 
 OrbitPoint AcceleratedPath::Tables::state(std::size_t piece, double t) const {
-  const Rates p = rates_of(pieces[piece], t);
-  const bool outgoing = is_outgoing(tetrad);
-  const Region outside = is_mirrored(tetrad) ? Region::kIII : Region::kI;
-  const Region inside = outgoing ? Region::kIV : Region::kII;
-  return {p.r > 2 ? outside : inside,
+  const Rates p = rates_of(pieces[piece], t, spacetime);
+  const bool outgoing = is_outgoing(tetrad), mirrored = is_mirrored(tetrad);
+  Region region = mirrored ? Region::kIII : Region::kI;
+  if (p.r < spacetime.inner_horizon())
+    region = mirrored ? Region::kVI : Region::kV;
+  else if (p.r <= spacetime.horizon())
+    region = outgoing ? Region::kIV : Region::kII;
+  return {region,
           tetrad,
           p.r,
           pieces[piece].azimuth.at(t),
-          {path_celerity(p, outgoing), 0, p.tangential},
+          {spacetime.moving_celerity(p.r, p.radial, p.tangential, outgoing), 0, p.tangential},
           null_time(piece, t)};
 }
 
-AcceleratedPath::AcceleratedPath(const std::vector<PathKey>& keys, Tetrad tetrad) {
+AcceleratedPath::AcceleratedPath(const std::vector<PathKey>& keys, Tetrad tetrad,
+                                 const Spacetime& spacetime) {
   check_keys(keys);
-  const auto tables = std::make_shared<Tables>(Tables{tetrad, pieces_of(keys), {}});
+  const auto tables = std::make_shared<Tables>(Tables{spacetime, tetrad, pieces_of(keys), {}});
   for (std::size_t k = 0; k < tables->pieces.size(); ++k) {
-    check_piece(tables->pieces[k], k + 1, is_outgoing(tetrad));
+    check_piece(tables->pieces[k], k + 1, is_outgoing(tetrad), spacetime);
     tables->append(k, 0, 1, 0, tables->panels.size() + kPanels);
   }
   tables->sum_up();

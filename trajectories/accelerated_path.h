@@ -1,12 +1,13 @@
 // An AcceleratedPath is that of an observer with engines, who follows keyframes.  Between them r
 // and azimuth are cubics of proper time, once continuously differentiable.  The rest of the
-// four-velocity is its normalisation, E = sqrt((dr/dtau)^2 + (1 - 2/r)(1 + (r dphi/dtau)^2)) >= 0.
-// Outside the hole any path is possible.  Inside, the rate dr/dtau must be large enough, and
-// negative (rain) or positive (outgoing tetrad).  A rate that a key does not give is chosen so that
+// four-velocity is its normalisation, E = sqrt((dr/dtau)^2 + f (1 + (r dphi/dtau)^2)) >= 0 with f =
+// lapse_squared(r).  Outside the hole, and inside the inner horizon of a charge, any path is
+// possible.  Between, the rate dr/dtau must be large enough, and negative (rain) or positive
+// (outgoing tetrad).  A rate that a key does not give is chosen so that
 // the path does not overshoot the keys (Fritsch and Butland's harmonic mean; 0 at a key that is an
 // extreme).  The state is exact to rounding for its r, azimuth and their rates.  null_time is a
 // quadrature with 1e-13, or what rounding leaves of r - 2 next to a horizon that the tetrad does
-// not cross, which is 1e-12/(r - 2).
+// not cross, which is 1e-12/(r - 2) next to r = 2.
 #pragma once
 
 #include <memory>
@@ -14,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/spacetime/spacetime.h"
 #include "trajectories/infinity.h"
 #include "trajectories/orbit_point.h"
 
@@ -30,11 +32,13 @@ struct PathKey {
 class AcceleratedPath {
  public:
   // Takes two keys or more.  The tetrad holds for the whole path.  It is rain in I and II, outgoing
-  // in IV and I, and the other two in III and II, IV and III.  Throws std::domain_error that names
+  // in IV and I, and the other two in III and II, IV and III.  Inside an inner horizon, in V, it is
+  // rain.  Throws std::domain_error that names
   // the key (counted from 1) and the instant where the path cannot be flown.  The reasons are keys
   // out of order, r not above 0, or a place inside the hole where it would have to be faster than
   // light or turn back.
-  explicit AcceleratedPath(const std::vector<PathKey>& keys, Tetrad tetrad = Tetrad::kRain);
+  explicit AcceleratedPath(const std::vector<PathKey>& keys, Tetrad tetrad = Tetrad::kRain,
+                           const Spacetime& spacetime = Schwarzschild{});
 
   double begin() const;  // proper times of the first and the last key
   double end() const;

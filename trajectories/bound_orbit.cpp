@@ -20,11 +20,6 @@ Geodesic bound_orbit(double periastron, double apoastron, double p, double e, do
           -std::numeric_limits<double>::infinity()};
 }
 
-void require_eccentricity(double e) {
-  require_at_least("eccentricity", "a number", e, 0, "a circle is the least eccentric orbit");
-  require_below("eccentricity", "a number", e, 1, "from 1 on the orbit is not bound");
-}
-
 }  // namespace
 
 // p > 6 + 2e means r_p (r_a - 2) > 4 r_a, since p - 6 - 2e = 2 (r_p (r_a - 2) - 4 r_a)/(r_p + r_a).

@@ -4,8 +4,8 @@
 //   psi(r) = psi_0 ((r - r_1)/(r_0 - r_1))^(2/3)
 //
 // from r_0 = from_r to r_1 = stop_r.  So r - r_1 falls like the cube of the time that is left, and
-// the felt acceleration d(sqrt(1 - 2/r) cosh psi)/dr is finite throughout and goes over into that
-// of hovering, 1/(r_1^2 sqrt(1 - 2/r_1)), without a jump.  The states are exact to rounding for
+// the felt acceleration d(sqrt(f) cosh psi)/dr, with f = lapse_squared(r), is finite throughout and
+// goes over into that of hovering, d(sqrt(f))/dr, without a jump.  The states are exact to rounding for
 // their r.  Proper time and null time are quadratures (flight_table.h).  tau = 0 at from_r.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include <optional>
 #include <utility>
 
+#include "pipeline/spacetime/spacetime.h"
 #include "trajectories/infinity.h"
 #include "trajectories/orbit_point.h"
 
@@ -20,9 +21,10 @@ namespace domefall {
 
 class BrakedFlight {
  public:
-  // Takes 2 < stop_r < from_r (M), and the speed at from_r against the static observer, 1e-6 to
-  // below 1.  Throws std::domain_error that names the bound.
-  BrakedFlight(double from_r, double stop_r, double speed);
+  // Takes horizon() < stop_r < from_r (M), and the speed at from_r against the static observer, 1e-6
+  // to below 1.  Throws std::domain_error that names the bound.
+  BrakedFlight(double from_r, double stop_r, double speed,
+               const Spacetime& spacetime = Schwarzschild{});
 
   // Returns the proper time from from_r to the stop, in M.
   double duration() const;

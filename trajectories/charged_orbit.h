@@ -1,26 +1,29 @@
-// A ChargedOrbit is any timelike geodesic of what has no charge near a charged hole, by proper time.
-// With w = 1/r
-//
-//   (dr/dtau)^2 = P(w) = (E^2 - 1) + 2w - (q^2 + L^2) w^2 + 2 L^2 w^3 - q^2 L^2 w^4
-//
-// The charge repels at last, so that every orbit has a periastron, and none meets the singularity.
-// Where it lies outside the horizon, the orbit comes from infinity and goes back, or is bound, and
-// its states are given in rain.  Where it lies inside the inner horizon, the orbit goes through I,
-// II and V to the periastron, in rain, and by V and IV into region I of the next universe, in the
-// outgoing tetrad.  A bound one does so in each period.
+// A ChargedOrbit is any timelike geodesic of what has no charge near a charged hole, by proper time
+// (charged_turns.h).  The charge repels at last, so that every orbit has a periastron, and none meets
+// the singularity.  Where it lies outside the horizon, or where there is none, the orbit comes from
+// infinity and goes back, or is bound, and its states are given in rain.  Where it lies inside the
+// inner horizon, the orbit goes through I, II and V to the periastron, in rain, and by V and IV into
+// region I of the next universe, in the outgoing tetrad.  A bound one does so in each period.
 //
 //   scattered  r = r_p cosh^2 s                    bound  r = r_p + (r_a - r_p) sin^2(s/2)
 //
-// tau = 0, azimuth 0 and t = 0 are at the periastron, so that r is even in tau and azimuth odd.
+// tau = 0, azimuth 0 and t = 0 are at the periastron, so that r is even in tau and azimuth odd.  For
+// falls and throws they are at the given place instead.  What rises from there outside of a hole is
+// given in rain up to its next periastron.
 // Proper time, azimuth and null time are quadratures (flight_table.h), made once.  Orbits beyond r =
 // 1e10 M are not tabulated.
+//
+// The factories throw std::domain_error, which begins with the name of what is out of bounds, for an
+// orbit that does not exist.  E^2 - 1 is `excess_energy`, and L >= 0 is in M.  What an `excess` is
+// added to is a bound beyond which an orbit falls into the hole.  A naked singularity has no such
+// bounds and no excess.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "pipeline/spacetime/charged.h"
+#include "trajectories/charged_turns.h"
 #include "trajectories/infinity.h"
 #include "trajectories/orbit_point.h"
 
@@ -28,15 +31,35 @@ namespace domefall {
 
 class ChargedOrbit {
  public:
-  // These throw std::domain_error, which begins with the name of what is out of bounds, for an orbit
-  // that does not exist.
-
-  // Takes E^2 - 1 and L >= 0 (M), and goes where r (M) is passed.
-  static ChargedOrbit through(const ChargedHole& hole, double r, double excess_energy, double l);
-  // These have a turning point at r: at rest there, with L, or with E^2 - 1.
-  static ChargedOrbit from_rest(const ChargedHole& hole, double r, double l);
+  // ---- from infinity and back ----
   static ChargedOrbit by_periastron(const ChargedHole& hole, double r, double excess_energy);
+  static ChargedOrbit scattered(const ChargedHole& hole, double excess_energy, double l);
+  // L is its bound times 1 + excess.
+  static ChargedOrbit by_momentum_excess(const ChargedHole& hole, double excess_energy,
+                                         double excess);
+  // The speed at infinity is the least that turns at r, times 1 + excess.
+  static ChargedOrbit by_speed_excess(const ChargedHole& hole, double r, double excess);
+
+  // ---- bound: r = p/(1 + e cos x) ----
   static ChargedOrbit between(const ChargedHole& hole, double periastron, double apoastron);
+  static ChargedOrbit by_shape(const ChargedHole& hole, double p, double e);
+  // p is its bound plus excess.
+  static ChargedOrbit by_shape_excess(const ChargedHole& hole, double e, double excess);
+
+  // ---- falls and throws, with tau = 0 at r ----
+  static ChargedOrbit from_rest(const ChargedHole& hole, double r, double l);
+  static ChargedOrbit falling(const ChargedHole& hole, double r, double excess_energy, double l);
+  // Thrown with this celerity against what rests at r, or against the tetrad T.  If the energy
+  // against T is negative, the orbit is that of the opposite energy, mirrored, which
+  // has_negative_energy() tells.
+  static ChargedOrbit thrown(const ChargedHole& hole, double r, double radial, double tangential);
+  static ChargedOrbit thrown_from_tetrad(const ChargedHole& hole, double r, double radial,
+                                         double tangential);
+  static bool has_negative_energy(const ChargedHole& hole, double r, double radial,
+                                  double tangential);
+  // Falls from 1/r = 1/circle + over with the L of the circle at r = circle, and an E^2 that exceeds
+  // the circle's by more >= 0.
+  static ChargedOrbit off_circle(const ChargedHole& hole, double circle, double over, double more);
 
   double energy() const;
   double angular_momentum() const;  // M
@@ -46,7 +69,7 @@ class ChargedOrbit {
 
   OrbitPoint at(const ProperTime& tau) const;
   double birth() const;
-  double death() const { return -birth(); }
+  double death() const;
   std::optional<ProperTime> time_at(double r, Leg leg, const ProperTime& after = -kInfinity) const;
   std::optional<ProperTime> next_periastron(const ProperTime& after) const;
   std::pair<double, double> reach() const { return {innermost(), outermost()}; }
@@ -55,18 +78,26 @@ class ChargedOrbit {
  private:
   struct Tables;
 
-  explicit ChargedOrbit(std::shared_ptr<const Tables> tables) : tables_(std::move(tables)) {}
-  static ChargedOrbit with_roots(const ChargedHole& hole, double excess_energy, double l,
-                                 double periastron, double w1);
+  explicit ChargedOrbit(const ChargedTurns& turns);
+  // Returns the orbit with tau = 0 where it is `above` its periastron and `below` its apoastron, on a
+  // leg.
+  static ChargedOrbit counted_from(const ChargedTurns& turns, double above, double below, Leg leg);
+
+  OrbitPoint own_point(const ProperTime& own) const;
 
   std::shared_ptr<const Tables> tables_;
+  // These are of tau = 0, counted from the periastron.
+  ProperTime start_ = 0;
+  double start_azimuth_ = 0;
+  DoubleDouble start_null_time_{};
+  int start_universe_ = 0;
+  bool rises_ = false;
 };
 
-// A ChargedCircle is a geodesic circular orbit, with L^2 = r^2 (r - q^2)/D and E = Delta/(r sqrt D),
-// D = r^2 - 3r + 2q^2.
+// A ChargedCircle is a geodesic circular orbit (circling_time() of charged.h).
 struct ChargedCircle {
   ChargedHole hole;
-  double r;  // above r_c and q^2
+  double r;
 
   OrbitPoint at(const ProperTime& tau) const;
   double held_radius() const { return r; }

@@ -4,7 +4,6 @@
 // has L^3.  It is unstable below r = 6, but still a solution.
 #pragma once
 
-#include "pipeline/spacetime/schwarzschild.h"
 #include "trajectories/orbit_point.h"
 
 namespace domefall {
@@ -15,8 +14,6 @@ struct CircularOrbit {
   OrbitPoint at(const ProperTime& tau) const;
   double held_radius() const { return r; }
 };
-
-inline constexpr double kCircularInnermost = Schwarzschild::light_circle();  // r must exceed it
 
 // Returns the proper time of one revolution, 2 pi r sqrt(r - 3), in units of M.
 double period(const CircularOrbit& orbit);

@@ -8,13 +8,14 @@
 namespace domefall {
 namespace {
 
-constexpr double kFlightTolerance = 1e-14;  // of an integrand, relative to the largest of its panel
-constexpr int kFlightHalvings = 60;         // halvings of a panel
+constexpr int kFlightHalvings = 60;  // halvings of a panel
 constexpr std::size_t kFlightPanels = 4000;
 
 }  // namespace
 
-FlightTable::FlightTable(const std::function<Times(double)>& rates, std::vector<double> kinks) {
+FlightTable::FlightTable(const std::function<Times(double)>& rates, std::vector<double> kinks,
+                         double tolerance)
+    : tolerance_(tolerance) {
   kinks.push_back(1);
   double low = 0;
   for (const double high : kinks) {
@@ -38,9 +39,9 @@ void FlightTable::append(const std::function<Times(double)>& rates, double low, 
     const Times rate = rates(middle + half * panel_node(j));
     tau[j] = rate.tau, null_time[j] = rate.null_time, azimuth[j] = rate.azimuth;
   }
-  bool resolved = integrate_panel(tau, half, kFlightTolerance, panel.tau);
-  resolved &= integrate_panel(null_time, half, kFlightTolerance, panel.null_time);
-  resolved &= integrate_panel(azimuth, half, kFlightTolerance, panel.azimuth);
+  bool resolved = integrate_panel(tau, half, tolerance_, panel.tau);
+  resolved &= integrate_panel(null_time, half, tolerance_, panel.null_time);
+  resolved &= integrate_panel(azimuth, half, tolerance_, panel.azimuth);
   if (resolved || depth == kFlightHalvings) {
     panels_.push_back(panel);
     return;

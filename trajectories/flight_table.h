@@ -20,9 +20,12 @@ class FlightTable {
   };
 
   // Takes the derivatives by q, of which that of tau is positive.  They are smooth but for a kink at each
-  // of `kinks`, in (0, 1) and in their order.  Throws std::domain_error if the panels become too
-  // many, which no flight has been seen to need.
-  FlightTable(const std::function<Times(double)>& rates, std::vector<double> kinks = {});
+  // of `kinks`, in (0, 1) and in their order, and rounded by less than the tolerance, relative to the
+  // largest of a panel.  Throws std::domain_error if the panels become too many, which no flight has
+  // been seen to need.
+  static constexpr double kTolerance = 1e-14;
+  FlightTable(const std::function<Times(double)>& rates, std::vector<double> kinks = {},
+              double tolerance = kTolerance);
 
   Times to_go(double q) const;
   // Returns the q with that proper time to go, or the nearer end for one that is not between them.
@@ -41,6 +44,7 @@ class FlightTable {
   template <class Begin>
   const Panel& panel_at(double value, const Begin& begin) const;
 
+  double tolerance_;
   std::vector<Panel> panels_;
   Times whole_;
 };

@@ -3,7 +3,9 @@
 namespace domefall {
 
 OrbitPoint GivenVelocity::at(const ProperTime& /*tau*/) const {
-  return {region, tetrad, r, 0, celerity};
+  OrbitPoint point{region, tetrad, r, 0, celerity};
+  point.l = l;
+  return point;
 }
 
 bool GivenVelocity::is_at_rest(const Spacetime& spacetime) const {

@@ -9,8 +9,9 @@ namespace domefall {
 struct GivenVelocity {
   Region region = Region::kI;
   Tetrad tetrad = Tetrad::kRain;  // has_tetrad(region, tetrad)
-  double r = kFlatSpace;          // > 2 in I and III, at most 2 in II and IV
+  double r = kFlatSpace;          // above the horizon in I and III, at most it in II and IV
   Celerity<ReferenceTetrad> celerity;
+  double l = 0;  // of a wormhole, as in ObserverState
 
   OrbitPoint at(const ProperTime& tau) const;
   double held_radius() const { return r; }

@@ -33,4 +33,9 @@ void require_at_least(const char* name, const char* unit, double value, double b
   if (!(value >= bound) || std::isinf(value)) refuse(name, "be at least", unit, value, bound, why);
 }
 
+void require_eccentricity(double e) {
+  require_at_least("eccentricity", "a number", e, 0, "a circle is the least eccentric orbit");
+  require_below("eccentricity", "a number", e, 1, "from 1 on the orbit is not bound");
+}
+
 }  // namespace domefall

@@ -16,5 +16,6 @@ void require_below(const char* name, const char* unit, double value, double boun
                    const std::string& why);
 void require_at_least(const char* name, const char* unit, double value, double bound,
                       const std::string& why);
+void require_eccentricity(double e);  // from 0 to below 1
 
 }  // namespace domefall

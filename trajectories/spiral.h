@@ -12,7 +12,8 @@
 //            (Mummery and Balbus 2022)
 //
 // Whoever starts above 6 M shrinks the circle by the push, which takes most of the turns, and the
-// engines stop a little below 6 M.  The turns are those from tau = 0 to r = 2 M.
+// engines stop a little below 6 M.  The turns are those from tau = 0 to r = 2 M.  Near a charge,
+// last_stable_orbit() and the horizon stand for 6 M and 2 M, and the fall does not end.
 //
 // The states are exact to rounding for their r.  Azimuths keep to 1e-12 of the whole, or 1e-10
 // where from_r is above 6 M by less than 0.001 M.  Proper time and null time are quadratures
@@ -23,6 +24,7 @@
 #include <optional>
 #include <utility>
 
+#include "pipeline/spacetime/spacetime.h"
 #include "trajectories/infinity.h"
 #include "trajectories/orbit_point.h"
 
@@ -32,13 +34,14 @@ class Spiral {
  public:
   static constexpr double kFewestTurns = 0.5, kMostTurns = 1000;
 
-  // Takes from_r > 3 (M).  Throws std::domain_error that names the bound.
-  Spiral(double from_r, double turns);
+  // Takes from_r > light_circle() (M) of a hole.  Throws std::domain_error that names the bound.
+  Spiral(double from_r, double turns, const Spacetime& spacetime = Schwarzschild{});
 
   // Returns the point for tau < death().  Before tau = 0 the observer is on the circle.
   OrbitPoint at(const ProperTime& tau) const;
   static double birth() { return -kInfinity; }
-  // Returns the proper time of the singularity, rounded.  at() counts from the rounded one.
+  // Returns the proper time of the singularity, rounded, or infinity near a charge.  at() counts from
+  // the rounded one.
   double death() const;
   // These return the proper times at which the engines start and stop.
   double pushed() const;

@@ -11,7 +11,7 @@ Celerity<ReferenceTetrad> resting_celerity(double r, Tetrad tetrad) {
 }
 
 OrbitPoint StaticObserver::at(const ProperTime& tau) const {
-  return {Region::kI,
+  return {r < spacetime.inner_horizon() ? Region::kV : Region::kI,
           Tetrad::kRain,
           r,
           0,

@@ -1,5 +1,5 @@
-// A StaticObserver is held at constant r, outside the horizon.  In flat space it is an observer at
-// rest.
+// A StaticObserver is held at constant r, outside the horizon or, in region V, inside an inner one.  In
+// flat space it is an observer at rest.
 #pragma once
 
 #include "pipeline/spacetime/schwarzschild.h"
@@ -15,8 +15,6 @@ struct StaticObserver {
   double held_radius() const { return r; }
   static bool is_at_rest(const Spacetime&) { return true; }
 };
-
-inline constexpr double kStaticInnermost = Schwarzschild::horizon();  // r must exceed it
 
 // Returns the celerity of what is at rest near a Schwarzschild hole, for r != 2 (observer_state.h).  d/dt
 // is T + s R in rain and T - s R in the outgoing frame, with s = sqrt(2/r).

@@ -16,6 +16,10 @@ concept Periodic = requires(const Kind& kind) {
   kind.radial_period();
 };
 template <class Kind>
+concept PassesLengths = requires(const Kind& kind) {
+  kind.time_at_l(0, 0);
+};
+template <class Kind>
 concept MayRest = requires(const Kind& kind) {
   kind.is_at_rest(Spacetime());
 };
@@ -51,6 +55,18 @@ std::optional<ProperTime> time_at(const Trajectory& trajectory, double r, Leg le
                                   const ProperTime& after) {
   return ask(trajectory, std::optional<ProperTime>(),
              [&](const auto& kind) { return kind.time_at(r, leg, after); });
+}
+
+std::optional<ProperTime> time_at_l(const Trajectory& trajectory, double l,
+                                    const ProperTime& after) {
+  return std::visit(
+      [&]<class Kind>(const Kind& kind) -> std::optional<ProperTime> {
+        if constexpr (PassesLengths<Kind>)
+          return kind.time_at_l(l, after);
+        else
+          return std::nullopt;
+      },
+      trajectory);
 }
 
 std::pair<double, double> reach(const Trajectory& trajectory) {

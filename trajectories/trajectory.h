@@ -4,7 +4,8 @@
 //   at(tau)                                       its point
 //   held_radius()                                 r, if it stays there for ever
 //   birth(), death(), time_at(), reach()          when it is where, if it does not stay
-//   next_periastron(), radial_period(), is_at_rest()    if it knows better than the defaults below
+//   next_periastron(), radial_period(), is_at_rest(), time_at_l()
+//                                                 if it knows better than the defaults below
 //
 // A kind that answers neither the second line nor the third does not compile.
 #pragma once
@@ -50,6 +51,10 @@ double lifetime(const Trajectory& trajectory);
 // it never is, or if r does not change.
 std::optional<ProperTime> time_at(const Trajectory& trajectory, double r, Leg leg,
                                   const ProperTime& after = -kInfinity);
+
+// Returns the first proper time >= after at which l of a wormhole is passed.  By default it never is.
+std::optional<ProperTime> time_at_l(const Trajectory& trajectory, double l,
+                                    const ProperTime& after = -kInfinity);
 
 // Returns the smallest and the largest r of its whole life, in M.
 std::pair<double, double> reach(const Trajectory& trajectory);

@@ -91,6 +91,20 @@ WormholeFall::WormholeFall(const Wormhole& wormhole, double from_l, double speed
                            bool inward) {
   require_above("speed", "fraction of c", speed, 0, "what rests does not fall in a wormhole");
   require_below("speed", "fraction of c", speed, 1, "nothing outruns light");
+  *this =
+      with_celerity(wormhole, from_l, speed / std::sqrt((1 - speed) * (1 + speed)), impact, inward);
+}
+
+WormholeFall WormholeFall::thrown(const Wormhole& wormhole, double from_l, double along_l,
+                                  double around) {
+  const double celerity = std::hypot(along_l, around), r = wormhole.radius(from_l);
+  require_above("speed", "gamma v", celerity, 0, "what rests does not fall in a wormhole");
+  return with_celerity(wormhole, from_l, celerity, std::min(r, r * (around / celerity)),
+                       (along_l < 0) == (from_l >= 0));
+}
+
+WormholeFall WormholeFall::with_celerity(const Wormhole& wormhole, double from_l, double celerity,
+                                         double impact, bool inward) {
   require_at_least("impact_parameter", "radii of the throat", impact, 0, "the azimuth grows");
   if (!(std::abs(from_l) <= kFarthestFall))
     throw std::domain_error("from_l must be from -1e12 to 1e12 (radii of the throat), got " +
@@ -113,18 +127,14 @@ WormholeFall::WormholeFall(const Wormhole& wormhole, double from_l, double speed
   };
   const double side = from_l < 0 ? -1 : 1;
   const double straight = leg.turns() ? 0 : wormhole.half_length() * leg.cylinder_rate();
-  Tables tables{wormhole,
-                speed / std::sqrt((1 - speed) * (1 + speed)),
-                leg,
-                last_u,
-                FlightTable(rates),
-                straight,
-                side,
-                inward ? -side : side};
+  Tables tables{wormhole,           celerity, leg,  last_u,
+                FlightTable(rates), straight, side, inward ? -side : side};
   const double length = tables.length_of(from_l), swept = tables.place(length).azimuth;
   tables.start = inward ? -length : length;
   tables.start_azimuth = inward ? -swept : swept;
-  tables_ = std::make_shared<const Tables>(std::move(tables));
+  WormholeFall fall;
+  fall.tables_ = std::make_shared<const Tables>(std::move(tables));
+  return fall;
 }
 
 bool WormholeFall::passes() const { return !tables_->leg.turns(); }
@@ -281,27 +291,44 @@ OrbitPoint WormholeFlight::at(const ProperTime& tau) const {
   return point;
 }
 
+namespace {
+
+// Returns the first proper time >= after at which l is passed while it grows, or while it falls.
+std::optional<ProperTime> first_passage(const std::vector<WormholePiece>& pieces, double l,
+                                        bool grows, const ProperTime& after) {
+  for (const WormholePiece& piece : pieces) {
+    const std::vector<double> cuts = turns_of(piece.l);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      const double from = piece.l.at(cuts[k]), to = piece.l.at(cuts[k + 1]);
+      if (from == to || grows != (to > from) || l < std::min(from, to) || l > std::max(from, to))
+        continue;
+      const double t = where(piece.l, l, cuts[k], cuts[k + 1]);
+      const ProperTime tau = piece.begin + t * (piece.end - piece.begin);
+      if (tau >= after) return tau;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<ProperTime> earlier(const std::optional<ProperTime>& a,
+                                  const std::optional<ProperTime>& b) {
+  return !a || (b && *b < *a) ? b : a;
+}
+
+}  // namespace
+
 std::optional<ProperTime> WormholeFlight::time_at(double r, Leg leg,
                                                   const ProperTime& after) const {
   if (!(r >= 1) || std::isinf(r)) return std::nullopt;
   const double far = tables_->wormhole.distance(r - 1);
-  std::optional<ProperTime> first;
-  for (const WormholePiece& piece : tables_->pieces) {
-    const std::vector<double> cuts = turns_of(piece.l);
-    for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
-      for (const double l : {far, -far}) {
-        const double from = piece.l.at(cuts[k]), to = piece.l.at(cuts[k + 1]);
-        const bool falls = l < 0 ? to > from : to < from;
-        if (from == to || falls != (leg == Leg::kInward) || l < std::min(from, to) ||
-            l > std::max(from, to))
-          continue;
-        const double t = where(piece.l, l, cuts[k], cuts[k + 1]);
-        const ProperTime tau = piece.begin + t * (piece.end - piece.begin);
-        if (tau >= after && (!first || tau < *first)) first = tau;
-      }
-    if (first) return first;
-  }
-  return first;
+  const bool outward = leg == Leg::kOutward;
+  return earlier(first_passage(tables_->pieces, far, outward, after),
+                 first_passage(tables_->pieces, -far, !outward, after));
+}
+
+std::optional<ProperTime> WormholeFlight::time_at_l(double l, const ProperTime& after) const {
+  return earlier(first_passage(tables_->pieces, l, true, after),
+                 first_passage(tables_->pieces, l, false, after));
 }
 
 std::pair<double, double> WormholeFlight::reach() const {

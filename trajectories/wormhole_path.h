@@ -43,6 +43,9 @@ class WormholeFall {
   // which it would circle in the throat for ever, and whether it goes towards the throat at first.
   // |from_l| is at most 1e12.  Throws std::domain_error that names the bound.
   WormholeFall(const Wormhole& wormhole, double from_l, double speed, double impact, bool inward);
+  // Takes the celerity at from_l, of which along_l is dl/dtau and `around` >= 0.
+  static WormholeFall thrown(const Wormhole& wormhole, double from_l, double along_l,
+                             double around);
 
   bool passes() const;
   OrbitPoint at(const ProperTime& tau) const;
@@ -56,6 +59,10 @@ class WormholeFall {
 
  private:
   struct Tables;
+
+  WormholeFall() = default;
+  static WormholeFall with_celerity(const Wormhole& wormhole, double from_l, double celerity,
+                                    double impact, bool inward);
 
   std::shared_ptr<const Tables> tables_;
 };
@@ -84,8 +91,10 @@ class WormholeFlight {
   OrbitPoint at(const ProperTime& tau) const;
   double birth() const;  // the neighbours of begin() and end(), which still belong to the flight
   double death() const;
-  // Returns the first proper time >= after at which r is passed on that leg.
+  // These return the first proper time >= after at which r is passed on that leg, and that at which l
+  // is passed.
   std::optional<ProperTime> time_at(double r, Leg leg, const ProperTime& after = -kInfinity) const;
+  std::optional<ProperTime> time_at_l(double l, const ProperTime& after = -kInfinity) const;
   // Returns the least and the largest r, exactly.
   std::pair<double, double> reach() const;
 

@@ -151,18 +151,6 @@ ChildProgram::~ChildProgram() {
   }
 }
 
-bool ChildProgram::write(const void* bytes, std::size_t count) const {
-  const char* at = static_cast<const char*>(bytes);
-  while (count > 0) {
-    const ssize_t written = ::write(input_, at, count);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    at += written;
-    count -= static_cast<std::size_t>(written);
-  }
-  return true;
-}
-
 ChildOutcome ChildProgram::wait() {
   close(input_);
   input_ = -1;
@@ -181,27 +169,13 @@ MemoryFile::MemoryFile(const std::string& purpose)
 }
 
 void MemoryFile::append(std::string_view bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t written = write(number(), bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) throw_file_error(purpose_, errno);
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
-void MemoryFile::rewind() const {
-  if (lseek(number(), 0, SEEK_SET) != 0) throw_file_error(purpose_, errno);
+  if (!write_all(number(), bytes)) throw_file_error(purpose_, errno);
 }
 
 std::string MemoryFile::contents() const {
-  std::string all;
-  std::array<char, 1 << 16> piece{};
-  while (true) {
-    const ssize_t count =
-        pread(number(), piece.data(), piece.size(), static_cast<off_t>(all.size()));
-    if (count < 0 && errno != EINTR) throw_file_error(purpose_, errno);
-    if (count == 0) return all;
-    if (count > 0) all.append(piece.data(), static_cast<std::size_t>(count));
-  }
+  std::string all(FileBytes(number(), purpose_).size(), '\0');
+  all.resize(read_at(number(), purpose_, 0, all.data(), all.size()));
+  return all;
 }
 
 std::string MemoryFile::path() const { return fmt::format("/proc/self/fd/{}", number()); }

@@ -60,7 +60,9 @@ class ChildProgram {
   ChildProgram& operator=(const ChildProgram&) = delete;
 
   // Writes to its standard input.  Returns false if it does not read any more.
-  bool write(const void* bytes, std::size_t count) const;
+  bool write(const void* bytes, std::size_t count) const {
+    return write_all(input_, {static_cast<const char*>(bytes), count});
+  }
 
   // Closes its standard input, and waits until the program has ended.  This may be called once.
   ChildOutcome wait();
@@ -88,11 +90,8 @@ class MemoryFile {
   // `purpose` is what errors call it.  Throws TemporaryError if there is no memory for it.
   explicit MemoryFile(const std::string& purpose);
 
-  // Both functions throw TemporaryError.
+  // Throw TemporaryError.  All that the file holds is returned, whoever wrote it.
   void append(std::string_view bytes) const;
-  void rewind() const;
-
-  // Returns all that the file holds, whoever wrote it.
   std::string contents() const;
 
   // Returns the descriptor, which programs that this one starts do not inherit unless they are

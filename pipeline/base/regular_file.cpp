@@ -99,6 +99,15 @@ std::size_t read_at(int descriptor, const fs::path& path, std::uint64_t position
   return done;
 }
 
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
 std::string read_file(const fs::path& path, std::uint64_t most) {
   RegularFile file(path);
   if (file.size() > most)

@@ -68,6 +68,9 @@ class RegularFile {
 std::size_t read_at(int descriptor, const std::filesystem::path& path, std::uint64_t position,
                     char* bytes, std::size_t count);
 
+// Writes bytes to an open file, pipe or device.  Returns false with errno where the system fails.
+bool write_all(int descriptor, std::string_view bytes);
+
 // Returns the whole of a file.  Throws as RegularFile, and InputError if it has more than `most`
 // bytes.
 std::string read_file(const std::filesystem::path& path, std::uint64_t most);

@@ -136,16 +136,6 @@ int sweep(const fs::path& folder, mode_t kind, std::uint64_t device) {
   return removed;
 }
 
-void flush_folder(const fs::path& folder) {
-  const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (opened.number() < 0 && errno == EACCES) return;  // it may be written to and not read
-  if (opened.number() < 0) throw_file_error(folder, errno);
-  // Some file systems cannot flush a folder and say so.  Nothing more can be done for a rename
-  // there.
-  if (fsync(opened.number()) != 0 && errno != EINVAL && errno != ENOTSUP)
-    throw_file_error(folder, errno);
-}
-
 }  // namespace
 
 UnfinishedList::UnfinishedList() : held_(unfinished().mutex) {}
@@ -267,6 +257,16 @@ ScratchFolder::~ScratchFolder() {
   fs::remove_all(path_, ignored);
   unfinished.drop(path_);
   close(lock_);
+}
+
+void flush_folder(const fs::path& folder) {
+  const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (opened.number() < 0 && errno == EACCES) return;  // it may be written to and not read
+  if (opened.number() < 0) throw_file_error(folder, errno);
+  // Some file systems cannot flush a folder and say so.  Nothing more can be done for a rename
+  // there.
+  if (fsync(opened.number()) != 0 && errno != EINVAL && errno != ENOTSUP)
+    throw_file_error(folder, errno);
 }
 
 void make_folder(const fs::path& folder) {

@@ -46,6 +46,9 @@ class TemporaryFile {
   bool in_place_ = false;
 };
 
+// Has the names in a folder written to the disk.  Throws as throw_file_error().
+void flush_folder(const std::filesystem::path& folder);
+
 // Makes a folder and those above it, and removes what dead writers left in it.  Throws InputError
 // where the path leads through a file or round a circle of links, or is too long, and TemporaryError
 // for any other failure.

@@ -1,6 +1,7 @@
 #include "pipeline/base/utf8.h"
 
 #include <fmt/format.h>
+#include <glib.h>
 
 #include <algorithm>
 #include <array>
@@ -52,25 +53,6 @@ constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
 constexpr bool is_high_half(char32_t unit) { return unit >= 0xD800 && unit < 0xDC00; }
 constexpr bool is_low_half(char32_t unit) { return unit >= 0xDC00 && unit < 0xE000; }
 
-// `code` is below 0x110000, and no surrogate.
-void append_utf8(std::string& text, char32_t code) {
-  const auto continued = [&](int shift) {
-    text += static_cast<char>(0x80 | ((code >> shift) & 0x3F));
-  };
-  if (code < 0x80) {
-    text += static_cast<char>(code);
-  } else if (code < 0x800) {
-    text += static_cast<char>(0xC0 | code >> 6);
-    continued(0);
-  } else if (code < 0x10000) {
-    text += static_cast<char>(0xE0 | code >> 12);
-    continued(6), continued(0);
-  } else {
-    text += static_cast<char>(0xF0 | code >> 18);
-    continued(12), continued(6), continued(0);
-  }
-}
-
 std::string from_utf16(std::string_view bytes, bool big, const std::filesystem::path& file) {
   std::string text;
   text.reserve(bytes.size());
@@ -94,7 +76,8 @@ std::string from_utf16(std::string_view bytes, bool big, const std::filesystem::
     } else if (is_low_half(code)) {
       fail(at, "the text is UTF-16, and half of a character is here");
     }
-    append_utf8(text, code);
+    std::array<char, 6> character{};
+    text.append(character.data(), g_unichar_to_utf8(code, character.data()));
   }
   return text;
 }
@@ -175,32 +158,13 @@ bool is_letter(const OddRange& range) { return range.first >= 0x0391 && range.la
 }  // namespace
 
 std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t k) {
-    return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
-  };
   if (text.empty()) return 0;
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  if (length == 0 || first > 0xF4) return 0;
-  // The first byte can narrow the range of the second one, but not those of the others.
-  const unsigned low = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-  const unsigned high = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-  if (byte(1) < low || byte(1) > high) return 0;
-  for (std::size_t k = 2; k < length; ++k)
-    if (k >= text.size() || !continues_character(text[k])) return 0;
-  return length;
+  if (static_cast<unsigned char>(text[0]) < 0x80) return 1;
+  const gunichar code = g_utf8_get_char_validated(text.data(), std::ssize(text));
+  return code > 0x10FFFF ? 0 : static_cast<std::size_t>(g_unichar_to_utf8(code, nullptr));
 }
 
-char32_t code_of_character(std::string_view character) {
-  const auto first = static_cast<unsigned char>(character.front());
-  if (character.size() == 1) return first;
-  // The first byte tells how many bits it has itself.
-  char32_t code = first & (0x7FU >> character.size());
-  for (const char c : character.substr(1))
-    code = code << 6U | (static_cast<unsigned char>(c) & 0x3FU);
-  return code;
-}
+char32_t code_of_character(std::string_view character) { return g_utf8_get_char(character.data()); }
 
 std::string_view first_characters(std::string_view text, std::size_t most) {
   std::size_t end = 0, characters = 0;

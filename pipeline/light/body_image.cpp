@@ -12,12 +12,50 @@
 namespace domefall {
 namespace {
 
+// ---- what the two kinds of holes have of their own ----
+
+double horizon(const PlaceView&) { return Schwarzschild::horizon(); }
+double horizon(const ChargedPlaceView& view) { return view.hole.horizon(); }
+bool is_within(const PlaceView& view) { return view.at.above_horizon < 0; }
+bool is_within(const ChargedPlaceView& view) { return view.r < view.hole.horizon(); }
+double place_of(const PlaceView& view) { return view.at.r; }
+double place_of(const ChargedPlaceView& view) { return view.r; }
+bool is_outgoing(const PlaceView& view) { return view.outgoing; }
+bool is_outgoing(const ChargedPlaceView&) { return false; }
+double tortoise(const PlaceView&, double r) { return Schwarzschild::tortoise(r); }
+double tortoise(const ChargedPlaceView& view, double r) { return view.hole.tortoise(r); }
+
+// A Received is light in the frame of free fall at a place: its frequency, and against R the
+// component of its motion.
+struct Received {
+  double frequency, along_r;
+};
+
+// With s = sqrt(2/r) the frequency is (E + s k^r)/(1 - s^2) in the rain.  For light that falls it is
+// (E^2 + s^2 L^2/r^2)/(E - s k^r), where nothing cancels on the horizon.  `across` is L/r.
+Received received(const PlaceView&, double r, double energy, double k_r, double across) {
+  const double s = Schwarzschild::free_fall_speed(r);
+  const double in_rain = energy > 0 && k_r < 0
+                             ? (energy * energy + s * s * across * across) / (energy - s * k_r)
+                             : (energy + s * k_r) / (1 - s * s);
+  return {in_rain, k_r + s * in_rain};
+}
+
+// T has the frequency (E - k^r)/2 + (E + k^r)/(2 f), where (E + k^r)/f = (L/r)^2/(E - k^r).
+Received received(const ChargedPlaceView& view, double r, double energy, double k_r,
+                  double across) {
+  const double half = energy > 0 && k_r < 0 ? across * across / (energy - k_r) / 2
+                                            : (energy + k_r) / view.hole.lapse_squared(r) / 2;
+  return {(energy - k_r) / 2 + half, half - (energy - k_r) / 2};
+}
+
+// ---- light ----
+
 // A Light is the light of one order that comes from a place on the body's way.
 struct Light {
-  PlaceImage place;
-  V3d across;     // the direction to which the ray sweeps
-  double energy;  // E, signed, of light that is one in the tetrad
-  double late;    // by how much later it would have to leave to be seen now, by v or u
+  PlaceLight place;
+  V3d across;   // the direction to which the ray sweeps
+  double late;  // by how much later it would have to leave to be seen now, by v or u
 };
 
 // A Guess is one of when the light left the body, and what it leads to.
@@ -30,9 +68,10 @@ struct Guess {
   std::optional<Light> light;  // none where none of that order comes from there
 };
 
+template <class View>
 class Retardation {
  public:
-  Retardation(const PlaceView& view, double null_time, const BodyMotion& motion, int order,
+  Retardation(const View& view, double null_time, const BodyMotion& motion, int order,
               double radius)
       : view_(view), null_time_(null_time), motion_(motion), order_(order), radius_(radius) {}
 
@@ -53,13 +92,13 @@ class Retardation {
     constexpr double kOnAxis = 1e-9;
     const V3d towards = sine > kOnAxis ? V3d(0, n.y, n.z) / sine : V3d(0, 1, 0);
     const V3d across = towards * (same_side ? 1.0 : -1.0);
-    if (body.r > 2) {
+    if (body.r > horizon(view_)) {
       guess.light = light_by(view_, body, guess.psi, across);
       guess.is_past = guess.light && guess.light->late > 0;
-    } else if (view_.at.above_horizon < 0) {
+    } else if (is_within(view_)) {
       // Within the hole light reaches the observer from both sides, with E > 0 and with E < 0.
       // What it has seen or sees lies between the two.
-      PlaceView other = view_;
+      View other = view_;
       other.far = true;
       const auto falling = light_by(view_, body, guess.psi, across),
                  rising = light_by(other, body, guess.psi, across);
@@ -72,17 +111,16 @@ class Retardation {
   }
 
  private:
-  std::optional<Light> light_by(const PlaceView& view, const BodyPoint& body, double psi,
+  std::optional<Light> light_by(const View& view, const BodyPoint& body, double psi,
                                 const V3d& across) const {
     const auto place = image_of_place(view, body.r, psi, radius_ / body.r);
     // A place of region II is on the ray before it has turned.
-    if (!place || (body.r < 2 && place->slope < 0)) return std::nullopt;
-    const double own = body.null_time - (view.outgoing ? 2 * Schwarzschild::tortoise(body.r) : 0);
-    return Light{*place, across, invariants(place->ray).energy,
-                 null_time_ + place->null_time - own};
+    if (!place || (body.r < horizon(view) && place->slope < 0)) return std::nullopt;
+    const double own = body.null_time - (is_outgoing(view) ? 2 * tortoise(view, body.r) : 0);
+    return Light{*place, across, null_time_ + place->null_time - own};
   }
 
-  const PlaceView& view_;
+  const View& view_;
   double null_time_;
   const BodyMotion& motion_;
   int order_;
@@ -91,49 +129,43 @@ class Retardation {
 
 // Returns k^r of the light at the body.  It is away from the hole if the ray goes inwards when
 // followed back.
-double radial_momentum(const PlaceView& view, const BodyPoint& body, const Light& light,
-                       double momentum) {
-  if (momentum > 0 && light.place.slope != 0)
-    return -momentum * light.place.slope / (body.r * body.r);
-  return body.r > view.at.r ? -std::abs(light.energy) : std::abs(light.energy);
+double radial_momentum(double observer_r, const BodyPoint& body, const PlaceLight& light) {
+  if (light.angular_momentum > 0 && light.slope != 0)
+    return -light.angular_momentum * light.slope / (body.r * body.r);
+  return body.r > observer_r ? -std::abs(light.energy) : std::abs(light.energy);
 }
 
-// Returns the frequency that the body gives to light that is one in the tetrad.  With s = sqrt(2/r)
-// it is (E + s k^r)/(1 - s^2) in the rain at the body.  For light that falls it is (E^2 + 2
-// L^2/r^3)/(E - s k^r), where nothing cancels on the horizon.
-double emitted(const PlaceView& view, const BodyPoint& body, const Light& light) {
-  const double momentum = invariants(light.place.ray).angular_momentum, energy = light.energy;
-  const double k_r = radial_momentum(view, body, light, momentum);
-  const double s = Schwarzschild::free_fall_speed(body.r), across = momentum / body.r;
-  const double in_rain = energy > 0 && k_r < 0
-                             ? (energy * energy + s * s * across * across) / (energy - s * k_r)
-                             : (energy + s * k_r) / (1 - s * s);
+// Returns the frequency that the body gives to light that is one in the tetrad.
+template <class View>
+double emitted(const View& view, const BodyPoint& body, const Light& light) {
+  const double across = light.place.angular_momentum / body.r;
+  const double k_r = radial_momentum(place_of(view), body, light.place);
+  const Received there = received(view, body.r, light.place.energy, k_r, across);
   // Light that comes back along the ray has the angular momentum -L about R x across.
   const V3d axis = V3d(1, 0, 0).cross(light.across);
   const double around = -across * axis.dot(body.angular_momentum) / body.r;
-  return in_rain * body.gamma - (k_r + s * in_rain) * body.radial - around;
+  return there.frequency * body.gamma - there.along_r * body.radial - around;
 }
 
 // Of the terms of the frequency only the last depends on the ray's plane: (R x e).L' = e.(L' x R).
 V3d swing(const BodyPoint& body, const Light& light) {
-  const double momentum = invariants(light.place.ray).angular_momentum;
-  return body.angular_momentum.cross(V3d(1, 0, 0)) * (momentum / (body.r * body.r));
+  return body.angular_momentum.cross(V3d(1, 0, 0)) *
+         (light.place.angular_momentum / (body.r * body.r));
 }
 
-V3d seen_direction(const Light& light) {
-  const NullRay& ray = light.place.ray;
+V3d seen_direction(const Light& light, bool outgoing) {
+  const PlaceLight& ray = light.place;
   const double sine = 2 * ray.sin_half * ray.cos_half;
   const double cosine = (ray.cos_half - ray.sin_half) * (ray.cos_half + ray.sin_half);
-  return V3d(ray.outgoing ? cosine : -cosine, 0, 0) + light.across * sine;
+  return V3d(outgoing ? cosine : -cosine, 0, 0) + light.across * sine;
 }
 
-}  // namespace
-
-std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
-                                       const BodyMotion& motion, int order, double radius) {
+template <class View>
+std::optional<BodyImage> body_image(const View& view, double null_time, const BodyMotion& motion,
+                                    int order, double radius) {
   constexpr int kSteps = 200;
   constexpr double kEnough = 1e-10;
-  const Retardation retardation(view, null_time, motion, order, radius);
+  const Retardation<View> retardation(view, null_time, motion, order, radius);
   // The instant lies between one whose light has come before and one whose light has yet to come.
   // Until both are found the steps grow.
   double low = motion.begin, high = motion.end, step = 1,
@@ -152,8 +184,8 @@ std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
         best = {tau, guess};
       if (std::abs(guess.light->late) <= kEnough * guess.body.r) break;
       // The phase of light is the same along a ray: E dt = nu dtau.
-      next =
-          tau + guess.light->late * guess.light->energy / emitted(view, guess.body, *guess.light);
+      next = tau + guess.light->late * guess.light->place.energy /
+                       emitted(view, guess.body, *guess.light);
     }
     (guess.is_past ? low : high) = tau;
     (guess.is_past ? has_low : has_high) = true;
@@ -169,7 +201,7 @@ std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
   const Light& light = *guess.light;
   const double ratio = 1 / emitted(view, guess.body, light);
   if (!(std::abs(light.late) <= 1e-6 * guess.body.r)) return std::nullopt;
-  return BodyImage{seen_direction(light),
+  return BodyImage{seen_direction(light, is_outgoing(view)),
                    ratio,
                    guess.body.r,
                    at,
@@ -179,6 +211,17 @@ std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
                    swing(guess.body, light),
                    light.place.angle_per_length,
                    light.place.angle_per_psi};
+}
+
+}  // namespace
+
+std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
+                                       const BodyMotion& motion, int order, double radius) {
+  return body_image(view, null_time, motion, order, radius);
+}
+std::optional<BodyImage> image_of_body(const ChargedPlaceView& view, double null_time,
+                                       const BodyMotion& motion, int order, double radius) {
+  return body_image(view, null_time, motion, order, radius);
 }
 
 }  // namespace domefall

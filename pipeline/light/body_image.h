@@ -10,7 +10,8 @@
 
 namespace domefall {
 
-// A BodyPoint says where a body is at its proper time tau, and how it moves against the rain there.
+// A BodyPoint says where a body is at its proper time tau, and how it moves against the rain there,
+// or against T near a charge.
 // Components are along R, Theta and Phi of the observer's tetrad, which are directions from the
 // hole.
 struct BodyPoint {
@@ -50,6 +51,9 @@ struct BodyImage {
 // to rest above the horizon, ever redder.  Whoever falls after it sees it cross the horizon when
 // crossing it, and then within.  The time of emission is right to 1e-10 of r.
 std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
+                                       const BodyMotion& motion, int order, double radius);
+// The same near a charge, where rain is the tetrad T.
+std::optional<BodyImage> image_of_body(const ChargedPlaceView& view, double null_time,
                                        const BodyMotion& motion, int order, double radius);
 
 }  // namespace domefall

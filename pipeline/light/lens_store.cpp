@@ -56,6 +56,10 @@ std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
   for (const SkyRegion sky : kEverySky) axes[sky] = sky_axes(observer, sky);
   if (observer.spacetime.is<Schwarzschild>())
     return std::make_shared<SchwarzschildLens>(kept_, axes);
+  // Discs and bodies are known above the inner horizon of the first universe alone.
+  const auto* hole = std::get_if<ChargedHole>(&observer.spacetime.kind());
+  if (hole && observer.universe == 0 && observer.r > hole->inner_horizon())
+    return std::make_shared<ChargedLens>(kept_, axes, *hole, observer.r);
   return std::make_shared<SphericalLens>(kept_, axes);
 }
 

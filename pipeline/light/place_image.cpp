@@ -123,6 +123,11 @@ double growth(const PlaceView& view, const NullRay& ray, double psi, double r, d
   return r * r * std::abs(8 * next - second) / (12 * h);
 }
 
+PlaceImage image_by(const NullRay& ray) {
+  const RayInvariants k = invariants(ray);
+  return {{ray.sin_half, ray.cos_half, k.energy, k.angular_momentum}, ray};
+}
+
 // Along the axis itself light diverges as in flat space, by its affine parameter r/|E|.  What is
 // above the observer is seen the farther from the hole the nearer it is to the axis.
 PlaceImage radial_image(const PlaceView& view, double r) {
@@ -134,8 +139,12 @@ PlaceImage radial_image(const PlaceView& view, double r) {
   const double twice = to_home != view.outgoing
                            ? 0
                            : 2 * (Schwarzschild::tortoise(r) - Schwarzschild::tortoise(view.at));
-  return {ray,       0, view.outgoing ? -twice : twice, 1 / (apart * apart), 1 / std::abs(apart),
-          -r / apart};
+  PlaceImage image = image_by(ray);
+  image.null_time = view.outgoing ? -twice : twice;
+  image.solid_angle_per_area = 1 / (apart * apart);
+  image.angle_per_length = 1 / std::abs(apart);
+  image.angle_per_psi = -r / apart;
+  return image;
 }
 
 }  // namespace
@@ -148,7 +157,7 @@ std::optional<PlaceImage> image_of_place(const PlaceView& view, double r, double
   const bool outside = r_after(fan.critical(), psi) < r;
   const std::optional<double> z = fan.find(r, psi, outside);
   if (!z) return std::nullopt;
-  PlaceImage image{fan.ray(*z, outside), 0, 0, 0, 0, 0};
+  PlaceImage image = image_by(fan.ray(*z, outside));
   const double there = r_after(image.ray, psi, &image.slope);
   if (!(std::abs(there / r - 1) < 1e-6)) return std::nullopt;  // no ray is there: it jumps
   image.null_time = null_time_after(image.ray, psi);
@@ -158,7 +167,7 @@ std::optional<PlaceImage> image_of_place(const PlaceView& view, double r, double
   const double energy = one_plus_z(image.ray), rise = growth(view, image.ray, psi, r, fan.outer());
   image.solid_angle_per_area = energy / (view.at.r * sine * rise);
   // The rays of two places that are dr apart at one psi are |dr| L/(r E) apart at right angles.
-  image.angle_per_length = energy * r / (invariants(image.ray).angular_momentum * rise);
+  image.angle_per_length = energy * r / (image.angular_momentum * rise);
   image.angle_per_psi = -image.slope / rise;
   return image;
 }

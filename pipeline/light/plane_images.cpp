@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "pipeline/base/simd/vector_math.h"
+#include "pipeline/light/charged_paths.h"
 #include "pipeline/light/ray_orbits.h"
 #include "pipeline/light/ray_times.h"
 #include "pipeline/spacetime/schwarzschild.h"
@@ -19,60 +21,87 @@ using std::numbers::pi;
 // The label p of a ray is k^r/L, as in plane_images.h.
 class LabelledRays {
  public:
-  LabelledRays(const Radius& at, bool outgoing)
-      : at_(at),
-        outgoing_(outgoing),
-        s_(Schwarzschild::free_fall_speed(at.r)),
-        one_minus_s_(Schwarzschild::below_light_speed(at)) {}
+  explicit LabelledRays(const PlaneView& view)
+      : at_(view.at), outgoing_(is_outgoing(view.tetrad)), energy_(view.energy()) {
+    if (const auto* hole = std::get_if<ChargedHole>(&view.space.kind()))
+      charged_.emplace(*hole, view.at.r);
+  }
 
-  // Every ray from here on has E > 0.  With t = tan(alpha/2), the energy E = 1 - s cos alpha of
-  // null_ray.h is [(1 - s) + (1 + s) t^2]/(1 + t^2).  Outside the horizon that is positive for
-  // every t, and inside where t^2 > -(1 - s)/(1 + s).
+  // Every ray from here on has E > 0.  With t = tan(alpha/2), the energy E = a cos^2(alpha/2) +
+  // b sin^2(alpha/2) is (a + b t^2)/(1 + t^2), with 1 - s and 1 + s in rain and f and 1 in T.
+  // Outside the horizon that is positive for every t, and inside where t^2 > -a/b.
   double least_log_tangent() const {
     constexpr double kAxis = -40;
-    return one_minus_s_ >= 0 ? kAxis : std::log(-one_minus_s_ / (1 + s_)) / 2;
+    return energy_.cosine2 >= 0 ? kAxis : std::log(-energy_.cosine2 / energy_.sine2) / 2;
   }
   static double greatest_log_tangent() { return 40; }
 
-  // Returns p = (cos alpha - s)/(r sin alpha) in the rain frame, and its opposite in the outgoing
-  // one.  By t = tan(alpha/2) that is [(1 - s)/t - (1 + s) t]/(2 r).
+  // Returns p = k^r/L = (a/t - b t)/(2 r), and its opposite in the outgoing frame.
   double label(double log_tangent) const {
-    const double t = std::exp(log_tangent), p = (one_minus_s_ / t - (1 + s_) * t) / (2 * at_.r);
+    const double t = std::exp(log_tangent),
+                 p = (energy_.cosine2 / t - energy_.sine2 * t) / (2 * at_.r);
     return outgoing_ ? -p : p;
   }
   // Inverts label() on the branch where E > 0.
   double log_tangent(double p) const {
     const double q = (outgoing_ ? -p : p) * at_.r;
-    // The formula of label() is the quadratic (1 + s) t^2 + 2 q t - (1 - s) = 0, whose larger root
-    // is wanted.  The form for each sign of q has no difference of like numbers.
-    const double root = std::sqrt(std::max(0.0, q * q + (1 + s_) * one_minus_s_));
-    return std::log(q > 0 ? one_minus_s_ / (q + root) : (root - q) / (1 + s_));
+    // The formula of label() is the quadratic b t^2 + 2 q t - a = 0, whose larger root is wanted.
+    // The form for each sign of q has no difference of like numbers.
+    const double root = std::sqrt(std::max(0.0, q * q + energy_.sine2 * energy_.cosine2));
+    return std::log(q > 0 ? energy_.cosine2 / (q + root) : (root - q) / energy_.sine2);
   }
 
-  // Finds w = 1/r of the rays after psi.  It is 0 on a sky and infinite in the singularity.
-  void find(const double* log_tangent, const double* psi, int count, double* w) {
-    for (int k = 0; k < count; ++k) {
-      const double t = std::exp(log_tangent[k]), length = std::sqrt(1 + t * t);
-      sine_[static_cast<std::size_t>(k)] = t / length;
-      cosine_[static_cast<std::size_t>(k)] = 1 / length;
-    }
-    orbits_.set(at_, outgoing_, {sine_.data(), cosine_.data(), nullptr, nullptr}, count);
-    orbits_.find(psi, places_);
-    for (int k = 0; k < count; ++k) w[k] = 1 / places_.r[static_cast<std::size_t>(k)];
+  // Finds w = 1/r of the rays after psi.  It is 0 on a sky, and infinite in the singularity or where
+  // a ray has come to the past horizon of a charge.  If asked for, the times are those of RayTimes.
+  void find(const double* log_tangent, const double* psi, int count, double* w,
+            double* times = nullptr) {
+    if (charged_)
+      find_charged(log_tangent, psi, count, w, times);
+    else
+      find_plain(log_tangent, psi, count, w, times);
   }
-
-  // Finds the times, as RayTimes counts them, of the places that find() found last.
-  void times(const double* psi, double* out) const { RayTimes(orbits_).find(psi, places_, out); }
 
   bool outgoing() const { return outgoing_; }
 
  private:
+  void find_plain(const double* log_tangent, const double* psi, int count, double* w,
+                  double* times) {
+    for (int k = 0; k < count; ++k) {
+      const double t = std::exp(log_tangent[k]), length = std::sqrt(1 + t * t);
+      first_[static_cast<std::size_t>(k)] = t / length;
+      second_[static_cast<std::size_t>(k)] = 1 / length;
+    }
+    orbits_.set(at_, outgoing_, {first_.data(), second_.data(), nullptr, nullptr}, count);
+    orbits_.find(psi, places_);
+    for (int k = 0; k < count; ++k) w[k] = 1 / places_.r[static_cast<std::size_t>(k)];
+    if (times) RayTimes(orbits_).find(psi, places_, times);
+  }
+
+  void find_charged(const double* log_tangent, const double* psi, int count, double* w,
+                    double* times) {
+    for (int k = 0; k < count; ++k) {
+      const double t = std::exp(log_tangent[k]), over = 1 / (2 * at_.r);
+      first_[static_cast<std::size_t>(k)] = label(log_tangent[k]);
+      second_[static_cast<std::size_t>(k)] =
+          std::abs(energy_.cosine2 / t + energy_.sine2 * t) * over;
+    }
+    if (times)
+      charged_->timed(first_.data(), second_.data(), psi, count, charged_places_);
+    else
+      charged_->find(first_.data(), second_.data(), psi, count, charged_places_);
+    std::copy_n(charged_places_.w.begin(), count, w);
+    if (times) std::copy_n(charged_places_.time.begin(), count, times);
+  }
+
   Radius at_;
   bool outgoing_;
-  double s_, one_minus_s_;
+  ViewEnergy energy_;
   RayOrbits orbits_;
   RayPlaces places_;
-  RayPlaces::Column sine_{}, cosine_{};
+  std::optional<ChargedPaths> charged_;
+  ChargedPaths::Places charged_places_;
+  // The sine and the cosine of alpha/2, or p and e near a charge.
+  RayPlaces::Column first_{}, second_{};
 };
 
 // Finds p of the rays that are at `target` = 1/r after psi, by bisection in ln tan(alpha/2).
@@ -101,9 +130,12 @@ constexpr double kLongAgo = -1e9;
 // keeps v = t + r*, and light that moves out keeps u = t - r*.  So the time is 0 for light that
 // keeps the frame's own null coordinate.  For the other kind that coordinate differs between the
 // two places by 2 r*.
-double radial_time(const Radius& at, bool outgoing, double r) {
-  if ((r > at.r) != outgoing) return 0;
-  return std::max(-2 * std::abs(Schwarzschild::tortoise_from(at, r)), kLongAgo);
+double radial_time(const PlaneView& view, double r) {
+  if ((r > view.at.r) != is_outgoing(view.tetrad)) return 0;
+  const auto* hole = std::get_if<ChargedHole>(&view.space.kind());
+  const double apart = hole ? hole->tortoise(r) - hole->tortoise(view.at.r)
+                            : Schwarzschild::tortoise_from(view.at, r);
+  return std::max(-2 * std::abs(apart), kLongAgo);
 }
 
 // Returns Lagrange's weights at t for the cubic through four nodes at -1, 0, 1 and 2.
@@ -139,20 +171,30 @@ double weighted_sum(const T* nodes, const std::array<double, 4>& weights) {
 
 }  // namespace
 
-PlaneImages::PlaneImages(const Radius& at, bool outgoing, bool straight, double inner, double outer,
-                         bool with_times)
-    : straight_(straight),
-      orders_(straight ? 1 : kOrders),
-      observer_w_(1 / at.r),
+ViewEnergy PlaneView::energy() const {
+  if (const auto* hole = std::get_if<ChargedHole>(&space.kind()))
+    return {1, hole->lapse_squared(at.r)};
+  return {1 + Schwarzschild::free_fall_speed(at.r), Schwarzschild::below_light_speed(at)};
+}
+
+double PlaneView::tortoise() const {
+  const auto* hole = std::get_if<ChargedHole>(&space.kind());
+  return hole ? hole->tortoise(at.r) : Schwarzschild::tortoise(at);
+}
+
+PlaneImages::PlaneImages(const PlaneView& view, double inner, double outer, bool with_times)
+    : straight_(view.straight),
+      orders_(view.straight ? 1 : kOrders),
+      observer_w_(1 / view.at.r),
       inner_w_(1 / inner),
       outer_w_(1 / outer),
       least_(static_cast<std::size_t>(orders_), -HUGE_VAL),
       greatest_(static_cast<std::size_t>(orders_), HUGE_VAL) {
-  if (!straight) tabulate(at, outgoing, with_times);
+  if (!straight_) tabulate(view, with_times);
 }
 
-void PlaneImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
-  LabelledRays rays(at, outgoing);
+void PlaneImages::tabulate(const PlaneView& view, bool with_times) {
+  LabelledRays rays(view);
   constexpr int kNodes = kOrders * kPerHalfTurn + 1, kBlock = RayPlaces::kSize;
   low_.resize(kNodes);
   high_.resize(kNodes);
@@ -168,7 +210,7 @@ void PlaneImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
     times_.resize(w_.size());
     for (int part = 0; part <= kParts; ++part)
       times_[static_cast<std::size_t>(part)] =
-          radial_time(at, outgoing, 1 / static_cast<double>(w_[static_cast<std::size_t>(part)]));
+          radial_time(view, 1 / static_cast<double>(w_[static_cast<std::size_t>(part)]));
   }
   std::vector<double> psi(kNodes), low(kNodes), high(kNodes);
   for (int k = 0; k < kNodes; ++k) psi[static_cast<std::size_t>(k)] = k * pi / kPerHalfTurn;
@@ -190,12 +232,10 @@ void PlaneImages::tabulate(const Radius& at, bool outgoing, bool with_times) {
           rays.log_tangent(low[k] + (high[k] - low[k]) * static_cast<double>(part) / kParts);
       turn[part] = psi[k];
     }
-    rays.find(tangent.data(), turn.data(), kParts + 1, w.data());
-    if (with_times) {
-      rays.times(turn.data(), times.data());
-      for (std::size_t part = 0; part <= kParts; ++part)
-        times_[k * (kParts + 1) + part] = std::max(times[part], kLongAgo);
-    }
+    rays.find(tangent.data(), turn.data(), kParts + 1, w.data(),
+              with_times ? times.data() : nullptr);
+    for (std::size_t part = 0; with_times && part <= kParts; ++part)
+      times_[k * (kParts + 1) + part] = std::max(times[part], kLongAgo);
     // At the rims w is known.  The rays found there may miss it where w is steep in p.
     w[0] = outer_w_;
     w[kParts] = inner_w_;

@@ -12,9 +12,24 @@
 
 #include <vector>
 
-#include "pipeline/spacetime/radius.h"
+#include "pipeline/light/sky_table.h"
+#include "pipeline/spacetime/spacetime.h"
 
 namespace domefall {
+
+// A PlaneView is the frame in which an observer sees a plane: that of free fall near a hole without
+// charge, and T near a charge (charged.h), which falls as well.  If light goes `straight`, the
+// observer is at rest outside.
+struct PlaneView {
+  Spacetime space;  // Schwarzschild's or a charge's
+  Radius at;        // 0 < r < infinity, with its distances near a hole without charge
+  Tetrad tetrad;    // of rain or its mirror image near a charge
+  bool straight = false;
+
+  // Returns the law of the energy, which is never straight light's.
+  ViewEnergy energy() const;
+  double tortoise() const;  // r*
+};
 
 class PlaneImages {
  public:
@@ -22,12 +37,9 @@ class PlaneImages {
   // radians wide.
   static constexpr int kOrders = 5;
 
-  // The rings are those of inner <= r <= outer (M), 2 <= inner.  The observer is at 0 < r <
-  // infinity in the rain frame or, if `outgoing`, in the frame of free fall to infinity.  If light
-  // goes `straight`, the observer is at rest at r > 2.  `with_times` says that moment() will be
-  // called.  Where light goes straight, its times are 0.
-  PlaneImages(const Radius& at, bool outgoing, bool straight, double inner, double outer,
-              bool with_times = false);
+  // The rings are those of inner <= r <= outer (M), from the horizon on.  `with_times` says that
+  // moment() will be called.  Where light goes straight, its times are 0.
+  PlaneImages(const PlaneView& view, double inner, double outer, bool with_times = false);
 
   // Returns the number of half turns, which is one where light goes straight.
   int orders() const { return orders_; }
@@ -60,7 +72,7 @@ class PlaneImages {
   static constexpr int kPerHalfTurn = 64;  // nodes of psi
   static constexpr int kParts = 24;        // intervals of u
 
-  void tabulate(const Radius& at, bool outgoing, bool with_times);
+  void tabulate(const PlaneView& view, bool with_times);
   // Sets least_ and greatest_ from p of the outer rim and of the inner one at each node of psi.
   void bound_orders(const std::vector<double>& low, const std::vector<double>& high);
 

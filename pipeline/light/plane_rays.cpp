@@ -16,7 +16,10 @@ using std::numbers::pi;
 // A PlaneSight holds what the loop over rays needs of the observer and the plane.  `straight` is the
 // energy E of straight light, and 0 where light is bent.
 struct PlaneSight {
-  double r, s, one_minus_s, label_sign, energy_sign, straight;
+  double r;
+  ViewEnergy law;
+  StaticTime still;
+  double label_sign, energy_sign, straight;
   double normal_up, normal_across, cos_azimuth, sin_azimuth;
 };
 
@@ -31,16 +34,16 @@ struct PlaneSight {
     const double sine = across > 1e-12 ? across : 1e-12;
     // The angle alpha counts from the hole in the rain frame and from the opposite direction in the
     // outgoing one.  So cos alpha is -x or x, and p has the opposite sign in the outgoing frame.
-    // With half2 = sin^2(alpha/2), the energy 1 - s cos alpha becomes
-    // (1 - s)(1 - half2) + (1 + s) half2, which does not cancel next to the horizon.
+    // With half2 = sin^2(alpha/2), the law of the energy, which is along_t - along_r cos alpha,
+    // does not cancel next to the horizon.
     const double cosine = -o.label_sign * x;
     const double half2 = cosine > 0 ? across2 / (2 * (1 + cosine)) : (1 - cosine) / 2;
-    const double energy = o.one_minus_s * (1 - half2) + (1 + o.s) * half2;
+    const double energy = o.law.cosine2 * (1 - half2) + o.law.sine2 * half2;
     const double free = o.energy_sign * energy;
     const double kept = free > 0 ? free : 0;
     const double e = o.straight > 0 ? o.straight : kept;
     const double pixel = width[k];
-    const double labelled = (cosine - o.s) / (o.r * sine);
+    const double labelled = (o.still.along_t * cosine - o.still.along_r) / (o.r * sine);
     // These are the cosine and the sine of the azimuth about R from the normal's part across R to
     // the tangent in which the ray sweeps psi.
     const double along = (y * o.cos_azimuth + z * o.sin_azimuth) / sine,
@@ -50,8 +53,8 @@ struct PlaneSight {
     const double toward = side * o.normal_across * along, aside = o.normal_across * beside;
     crossings.energy[k] = e;
     crossings.label[k] = o.label_sign * labelled;
-    // The derivative of p = (cos alpha - s)/(r sin alpha) is dp/dalpha = -E/(r sin^2 alpha).  For
-    // straight light s = 0, and 1 stands for E.
+    // The derivative of p = (along_t cos alpha - along_r)/(r sin alpha) is dp/dalpha =
+    // -E/(r sin^2 alpha).  For straight light along_r = 0, and 1 stands for E.
     const double rate = o.straight > 0 ? 1 : energy > 0 ? energy : -energy;
     crossings.label_per[k] = rate / (o.r * sine * sine) * pixel;
     // After psi the ray is at cos(psi) r^ + sin(psi) e^, which lies in the plane of the normal n
@@ -71,39 +74,47 @@ struct PlaneSight {
 }
 Dispatched<locate_on_plane_loop> locate_on_plane;
 
+// Returns f at the observer, who is outside where light is straight.
+double lapse_squared_at(const PlaneView& view) {
+  if (const auto* hole = std::get_if<ChargedHole>(&view.space.kind()))
+    return hole->lapse_squared(view.at.r);
+  return view.straight ? (view.at.r - 2) / view.at.r : 1 - 2 * (1 / view.at.r);
+}
+
 }  // namespace
 
-PlaneRays::PlaneRays(const Radius& at, Tetrad tetrad, double null_time, bool straight,
-                     const PlaneRings& rings)
-    : images_(at, is_outgoing(tetrad), straight, rings.inner, rings.outer, rings.with_times),
-      straight_(straight),
-      outgoing_(is_outgoing(tetrad)),
-      r_(at.r),
-      s_(Schwarzschild::free_fall_speed(r_)),
-      one_minus_s_(Schwarzschild::below_light_speed(at)),
+PlaneRays::PlaneRays(const PlaneView& view, double null_time, const PlaneRings& rings)
+    : images_(view, rings.inner, rings.outer, rings.with_times),
+      straight_(view.straight),
+      outgoing_(is_outgoing(view.tetrad)),
+      r_(view.at.r),
+      energy_(view.energy()),
+      still_(straight_ ? StaticTime{} : view.space.static_time(r_)),
+      lapse_squared_(lapse_squared_at(view)),
       // Straight light is labelled in the frame of the observer at rest, where alpha counts from the
       // hole and p = cos alpha/(r sin alpha).
-      label_sign_(outgoing_ && !straight ? -1 : 1),
-      energy_sign_(is_mirrored(tetrad) ? -1 : 1),
+      label_sign_(outgoing_ && !straight_ ? -1 : 1),
+      energy_sign_(is_mirrored(view.tetrad) ? -1 : 1),
       normal_up_(rings.normal.x),
       normal_across_(std::sqrt(rings.normal.y * rings.normal.y + rings.normal.z * rings.normal.z)),
       normal_cosine_(normal_across_ > 0 ? rings.normal.y / normal_across_ : 1),
       normal_sine_(normal_across_ > 0 ? rings.normal.z / normal_across_ : 0),
       side_(normal_up_ > 0 ? -1 : 1) {
-  const double tortoise = Schwarzschild::tortoise(at);
+  if (const auto* hole = std::get_if<ChargedHole>(&view.space.kind()))
+    charged_tortoise_.emplace(*hole);
+  const double tortoise = view.tortoise();
   // The t of a mirrored observer counts backwards.  With t -> -t, v = t + r* becomes 2 r* - v, and
   // u = t - r* becomes -2 r* - u.
-  null_time_ = is_mirrored(tetrad) ? (outgoing_ ? -2 : 2) * tortoise - null_time : null_time;
+  null_time_ = is_mirrored(view.tetrad) ? (outgoing_ ? -2 : 2) * tortoise - null_time : null_time;
   observer_v_ = outgoing_ ? null_time_ + 2 * tortoise : null_time_;
 }
 
 void PlaneRays::locate(const DirectionBatch& n, const double* width, int count,
                        PlaneCrossings& crossings) const {
-  const PlaneSight sight{
-      r_,          straight_ ? 0 : s_, straight_ ? 1 : one_minus_s_,
-      label_sign_, energy_sign_,       straight_ ? std::sqrt((r_ - 2) / r_) : 0.0,
-      normal_up_,  normal_across_,     normal_cosine_,
-      normal_sine_};
+  const PlaneSight sight{r_,          energy_,        still_,
+                         label_sign_, energy_sign_,   straight_ ? std::sqrt(lapse_squared_) : 0.0,
+                         normal_up_,  normal_across_, normal_cosine_,
+                         normal_sine_};
   locate_on_plane(sight, n, width, count, crossings);
 }
 
@@ -120,11 +131,11 @@ double PlaneRays::azimuth_at(double turn) const {
   return arc_tangent2(std::sqrt(std::max(0.0, (length - x) * (length + x))), x);
 }
 
-// The orbit equation w'^2 = 1/b^2 - w^2 + 2 w^3, taken at the observer, where w' = p, gives
-// 1/b^2 = p^2 + w_0^2 - 2 w_0^3.  Straight light has no cubic term.
+// The orbit equation w'^2 = 1/b^2 - f w^2, taken at the observer, where w' = p, gives 1/b^2 = p^2 +
+// f w_0^2.  For straight light f is 1.
 double PlaneRays::momentum(double label, double energy) const {
   const double w0 = 1 / r_;
-  const double inverse_b2 = label * label + w0 * w0 * (straight_ ? 1 : 1 - 2 * w0);
+  const double inverse_b2 = label * label + w0 * w0 * (straight_ ? 1 : lapse_squared_);
   return energy / std::sqrt(std::max(inverse_b2, 1e-300));
 }
 
@@ -138,8 +149,10 @@ V3d PlaneRays::place(double turn, double azimuth_cosine, double azimuth_sine) co
 }
 
 double PlaneRays::time_at(double r, double delay) const {
-  const double tortoise =
-      Schwarzschild::finite_tortoise(r, [](double x) { return logarithm(x); });  // no pattern there
+  const auto log = [](double x) { return logarithm(x); };
+  const double tortoise = charged_tortoise_
+                              ? charged_tortoise_->at(r, log)
+                              : Schwarzschild::finite_tortoise(r, log);  // no pattern there
   return null_time_ + delay + (outgoing_ ? tortoise : -tortoise);
 }
 

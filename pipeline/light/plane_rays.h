@@ -6,8 +6,11 @@
 // rings.
 #pragma once
 
+#include <optional>
+
 #include "pipeline/light/direction_batch.h"
 #include "pipeline/light/plane_images.h"
+#include "pipeline/spacetime/charged.h"
 #include "pipeline/spacetime/regions.h"
 #include "trajectories/directions.h"
 
@@ -34,9 +37,8 @@ struct PlaneCrossings {
 
 class PlaneRays {
  public:
-  // `null_time` is the observer's.  If light goes `straight`, the observer is at rest at r > 2.
-  PlaneRays(const Radius& at, Tetrad tetrad, double null_time, bool straight,
-            const PlaneRings& rings);
+  // `null_time` is the observer's.
+  PlaneRays(const PlaneView& view, double null_time, const PlaneRings& rings);
 
   // Finds where count <= DirectionBatch::kSize rays meet the plane.  Each stands for a pixel that is
   // `width` radians wide in the lens's frame.
@@ -65,10 +67,14 @@ class PlaneRays {
  private:
   PlaneImages images_;
   bool straight_, outgoing_;
-  double r_, s_, one_minus_s_;
-  double label_sign_;   // the sign of p = k^r/L against its form in the rain frame
-  double energy_sign_;  // the sign that the frame gives E of light from region I
+  double r_;
+  ViewEnergy energy_;  // those that make p and E of light that is not straight
+  StaticTime still_;
+  double lapse_squared_;  // of the observer's place
+  double label_sign_;     // the sign of p = k^r/L against its form in the rain frame
+  double energy_sign_;    // the sign that the frame gives E of light from region I
   double null_time_, observer_v_;
+  std::optional<PixelTortoise> charged_tortoise_;
   // The normal is given by its part along R, by the length of its part across R, and by the cosine
   // and the sine of the angle from Theta to that part.
   double normal_up_, normal_across_, normal_cosine_, normal_sine_;

@@ -15,7 +15,8 @@ class SchwarzschildLens : public SphericalLens {
                          order, radius);
   }
   std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override {
-    return std::make_unique<PlaneRays>(optics().at, optics().tetrad, null_time, false, rings);
+    return std::make_unique<PlaneRays>(PlaneView{Schwarzschild{}, optics().at, optics().tetrad},
+                                       null_time, rings);
   }
 };
 

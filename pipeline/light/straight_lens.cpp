@@ -51,7 +51,7 @@ std::unique_ptr<const SkyPoints> StraightLens::points(SkyRegion sky,
 
 std::unique_ptr<const PlaneRays> StraightLens::plane(const PlaneRings& rings,
                                                      double null_time) const {
-  return std::make_unique<PlaneRays>(r_, tetrad_, null_time, true, rings);
+  return std::make_unique<PlaneRays>(PlaneView{space_, r_, tetrad_, true}, null_time, rings);
 }
 
 void StraightLens::rays(const DirectionBatch& directions, int count, ViewRayBatch& rays) const {

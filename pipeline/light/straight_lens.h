@@ -12,7 +12,8 @@ class StraightLens : public Lens {
   // `frame` is the celerity of the observer at rest, and `shift` the frequency ratio of all light in
   // that observer's frame.
   StraightLens(const ObserverState& observer, const Celerity<ReferenceTetrad>& frame, double shift)
-      : r_(observer.r),
+      : space_(observer.spacetime),
+        r_(observer.r),
         tetrad_(observer.tetrad),
         sky_(own_sky(observer)),
         sky_from_tetrad_(observer.sky_from_tetrad),
@@ -29,6 +30,7 @@ class StraightLens : public Lens {
   std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override;
 
  private:
+  Spacetime space_;
   double r_;
   Tetrad tetrad_;
   SkyRegion sky_;

@@ -73,12 +73,12 @@ std::string class_text(const std::vector<RayErrorRow>& rows, const RayClass& of)
                       r.build_us > 0 ? amount(r.build_us) : "");
   });
   return fmt::format(
-      "### Seen from region {0}, {1}\n\n"
+      "### Seen from {3}, {1}\n\n"
       "| method | setting | φ, 99 of 100 | φ, worst | sky, 99 of 100 | sky, worst | undecided | "
       "ns per ray | building, µs |\n|---|---|---|---|---|---|---|---|---|\n{2}\n"
       "![error of the azimuth against time](plots/rays_{0}_{1}.svg)\n"
       "![error on the sky against time](plots/rays_{0}_{1}_sky.svg)\n\n",
-      of.region, of.name, table);
+      of.region, of.name, table, place_of(of));
 }
 
 // Returns the quickest way to an error on the sky that 99 of 100 rays of a class keep while none is
@@ -176,7 +176,7 @@ std::string curves_part(const std::vector<NamedPlot>& figures) {
 // largest, 1e-6, is 1/380 of a pixel of an 8k dome, which is pi/8192.  The others say what a method
 // takes for more than any picture shows.
 std::string quickest_line(const std::vector<RayErrorRow>& rows, const RayClass& of) {
-  return table_line(fmt::format("{}, {}", of.region, of.name), quickest(rows, of, 1e-6),
+  return table_line(fmt::format("{}, {}", place_of(of), of.name), quickest(rows, of, 1e-6),
                     quickest(rows, of, 1e-9), quickest(rows, of, 1e-12));
 }
 

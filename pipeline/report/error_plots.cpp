@@ -38,7 +38,7 @@ using RayValue = double RayErrorRow::*;
 
 Plot ray_plot(const std::vector<RayErrorRow>& rows, const RayClass& of, const char* what,
               RayValue error) {
-  Plot plot = log_plot(std::string("Rays seen from region ") + of.region + ", " + of.name,
+  Plot plot = log_plot(std::string("Rays seen from ") + place_of(of) + ", " + of.name,
                        "time for one ray, µs", what);
   for (const RayErrorRow& row : rows)
     if (row.region == of.region && row.difficulty == of.name)

@@ -26,6 +26,8 @@ struct ExtremeCase {
 // stars, as the tables give them, with limits in closed form and with the exact integral.  They take
 // about 2 s.
 std::vector<ExtremeCase> extreme_rays();
+// Returns such cases near charges and in wormholes.
+std::vector<ExtremeCase> extreme_swept();
 // Returns the cases of frames of 96 pixels with every sky and stars, whose pixels must be finite, or
 // in which the light or the places are known.  They take about 3 s.  measure() throws InputError if
 // the shipped catalogue cannot be read.

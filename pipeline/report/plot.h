@@ -55,16 +55,12 @@ std::string gnuplot_script(const Plot& plot);
 // Returns the plot as an SVG document.  Throws what run_gnuplot throws.
 std::string draw(const Plot& plot);
 
-// gnuplot runs as a program of its own, which reads a script from its standard input and writes the
-// drawing to its standard output.
-
-// Returns gnuplot's name and version, for example "gnuplot 5.4 patchlevel 4".  Throws InputError if
-// gnuplot is not installed or does not work, and TemporaryError if there is no memory for it.
+// Returns gnuplot's name and version, for example "gnuplot 5.4 patchlevel 4".  Throws as
+// run_gnuplot().
 std::string gnuplot_version();
 
-// Returns what the script writes to standard output.  Throws InputError if gnuplot is not
-// installed, std::runtime_error with gnuplot's message if the script is faulty or draws nothing,
-// and TemporaryError if there is no memory for gnuplot or its files.
+// Returns what gnuplot, a program of its own, writes to its standard output.  Throws TemporaryError if
+// it cannot be started, and std::runtime_error with its message if the script is faulty or draws nothing.
 std::string run_gnuplot(const std::string& script);
 
 }  // namespace domefall

@@ -21,7 +21,7 @@ struct SamplePlace {
   ReferenceRayPlace place;
 };
 
-// Returns places on the rays of all classes beside an edge, or on those of all other classes.  At
+// Returns places on the rays of all classes of a hole beside an edge, or on those of its others.  At
 // the ends of a path r is infinite or 0 and has no relative error, so a place keeps a fiftieth of
 // the azimuth from both.
 std::vector<SamplePlace> sample_places(bool quick, bool at_edge) {
@@ -31,13 +31,13 @@ std::vector<SamplePlace> sample_places(bool quick, bool at_edge) {
   std::vector<SamplePlace> places;
   double part = 0;
   for (const RayClass& of : ray_classes()) {
-    if ((of.difficulty == Difficulty::kEdge) != at_edge) continue;
+    if (of.kind != RayKind::kHole || (of.difficulty == Difficulty::kEdge) != at_edge) continue;
     for (const RayGroup& group : sample_rays(of, radii, per_radius))
       for (const SampleRay& ray : group) {
         part = std::fmod(part + kGolden, 1.0);
         const double psi = ray.phi * (kFirst + kRange * part);
-        places.push_back(
-            {ray.request, psi, reference_position(reference_request(ray.request), psi)});
+        const RayRequest& request = std::get<RayRequest>(ray.request);
+        places.push_back({request, psi, reference_position(reference_request(request), psi)});
       }
   }
   return places;

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "pipeline/base/stop_watch.h"
+#include "pipeline/light/charged_lens.h"
+#include "pipeline/light/wormhole_lens.h"
 #include "pipeline/render/rays/view_tracer.h"
 
 namespace domefall {
@@ -65,27 +67,107 @@ struct Errors {
   }
 };
 
+// ---- a Schwarzschild hole ----
+
 // Returns what trace_ray() finds, without what the report does not compare.
-FollowedRay follow(const RayRequest& q, TraceMethod method, const TraceOptions& options) {
-  const TracedRay ray = trace_ray(q, method, options);
+FollowedRay follow(const AnyRay& q, TraceMethod method, const TraceOptions& options) {
+  const TracedRay ray = trace_ray(std::get<RayRequest>(q), method, options);
   return {ray.decided ? std::optional(ray.origin) : std::nullopt, ray.phi};
 }
 
 // Follows a ray by tables of 2^bits intervals to the octave.  The setting is a double here, like
 // that of any method.
-FollowedRay by_table(const RayRequest& q, double bits) {
+FollowedRay by_table(const AnyRay& q, double bits) {
   TraceOptions options;
   options.table_bits = static_cast<int>(bits);
   return follow(q, TraceMethod::kTable, options);
 }
 
-FollowedRay by_integral(const RayRequest& q, double) { return follow(q, TraceMethod::kExact, {}); }
+FollowedRay by_integral(const AnyRay& q, double) { return follow(q, TraceMethod::kExact, {}); }
 
-FollowedRay by_steps(const RayRequest& q, TraceMethod method, double tolerance) {
+FollowedRay by_steps(const AnyRay& q, TraceMethod method, double tolerance) {
   TraceOptions options;
   options.tolerance = tolerance;
   options.slope = false;  // an integrator would follow four more rays to find it
   return follow(q, method, options);
+}
+
+// ---- charges and wormholes ----
+
+// A ZoneTables holds the tables of the zones of one observer's view.
+struct ZoneTables {
+  AnyRay observer;  // a ray of his
+  double bits = 0;
+  std::vector<std::pair<SkyRegion, SkyTable>> of;
+};
+
+bool is_same_observer(const AnyRay& a, const AnyRay& b) {
+  if (a.index() != b.index()) return false;
+  if (const auto* charged = std::get_if<ChargedRequest>(&a)) {
+    const auto& other = std::get<ChargedRequest>(b);
+    return charged->hole == other.hole && charged->at.r == other.at.r;
+  }
+  const auto &one = std::get<WormholeRequest>(a), &other = std::get<WormholeRequest>(b);
+  return one.wormhole == other.wormhole && one.l == other.l;
+}
+
+HoleOptics optics_of(const AnyRay& ray) {
+  ObserverState observer;
+  if (const auto* charged = std::get_if<ChargedRequest>(&ray)) {
+    observer.r = charged->at.r;
+    return make_charged_optics(charged->hole, observer);
+  }
+  const auto& within = std::get<WormholeRequest>(ray);
+  observer.l = within.l, observer.r = within.wormhole.radius(within.l);
+  return make_wormhole_optics(within.wormhole, observer);
+}
+
+const ZoneTables& kept_tables(const AnyRay& ray, double bits) {
+  thread_local ZoneTables kept;
+  if (kept.of.empty() || kept.bits != bits || !is_same_observer(kept.observer, ray)) {
+    kept = {ray, bits, {}};
+    // The observer's own sky comes first.
+    for (const SkyPart& part : optics_of(ray).parts)
+      kept.of.emplace_back(kept.of.empty() ? SkyRegion::kI : SkyRegion::kIII,
+                           SkyTable(part.zone, static_cast<int>(bits)));
+  }
+  return kept;
+}
+
+// Returns how far a ray is from the edge of a zone, negative beyond it.
+double from_edge(const AnyRay& ray, const SkyZone& zone) {
+  const auto* charged = std::get_if<ChargedRequest>(&ray);
+  const double offset = charged ? charged->offset : std::get<WormholeRequest>(ray).offset;
+  if (!charged || charged->edge == (zone.edge.sign > 0 ? Critical::kFirst : Critical::kSecond))
+    return 2 * std::tan(zone.edge.sign * offset / 4);
+  const auto half = static_cast<double>(charged->delta / 2);
+  return zone.edge.distance(std::sin(half), std::cos(half));
+}
+
+FollowedRay by_zone_table(const AnyRay& ray, double bits) {
+  for (const auto& [sky, table] : kept_tables(ray, bits).of) {
+    const double x = std::min(from_edge(ray, table.zone()), table.x_max());
+    // Frames take the slope, too.
+    if (x > 0 && table.slope(x) > 0) return {sky, table.azimuth(x)};
+  }
+  return {std::nullopt, 0};
+}
+
+FollowedRay by_swept_integral(const AnyRay& ray, double) {
+  if (const auto* within = std::get_if<WormholeRequest>(&ray)) {
+    const TracedWormhole traced = trace_wormhole(*within, false);
+    return {traced.own ? SkyRegion::kI : SkyRegion::kIII, traced.azimuth};
+  }
+  const TracedCharge traced = trace_charge(std::get<ChargedRequest>(ray));
+  if (traced.origin == ChargedOrigin::kOwn) return {SkyRegion::kI, traced.phi};
+  if (traced.origin == ChargedOrigin::kParallel) return {SkyRegion::kIII, traced.phi};
+  return {std::nullopt, 0};
+}
+
+FollowedRay by_light_steps(const AnyRay& ray, FallMethod method, double tolerance) {
+  if (const auto* within = std::get_if<WormholeRequest>(&ray))
+    return step_wormhole_ray(*within, method, tolerance);
+  return step_charged_ray(std::get<ChargedRequest>(ray), method, tolerance);
 }
 
 // Returns the bits of the tables to compare.  The error falls with the eighth power of the
@@ -196,23 +278,32 @@ std::vector<RayErrorRow> measure_rays(bool quick) {
   std::vector<RayErrorRow> rows;
   for (const RayClass& of : ray_classes()) {
     const std::vector<RayGroup> groups = sample_rays(of, radii, per_radius);
-    for (const RayMethod& method : compared_methods(quick))
+    for (const RayMethod& method : compared_methods(of.kind, quick))
       for (const double setting : method.settings)
         rows.push_back(measure_class(of, groups, method, setting, repeats));
   }
   return rows;
 }
 
-std::vector<RayMethod> compared_methods(bool quick) {
+std::vector<RayMethod> compared_methods(RayKind kind, bool quick) {
+  const bool hole = kind == RayKind::kHole;
   std::vector<RayMethod> methods{
-      {"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits, true, by_table},
-      {"exact", "", {0}, 0, false, by_integral}};
-  for (const auto& [name, method] : kTraceMethods)
-    if (is_integrator(method))  // the two others stand in the list already
-      methods.push_back({name, "tolerance", tolerances(quick), kDefaultTolerance, false,
-                         [method = method](const RayRequest& q, double tolerance) {
-                           return by_steps(q, method, tolerance);
-                         }});
+      {"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits, true,
+       hole ? by_table : by_zone_table},
+      {"exact", "", {0}, 0, false, hole ? by_integral : by_swept_integral}};
+  const auto add = [&](std::string_view name, const auto& steps, auto method) {
+    methods.push_back(
+        {std::string(name), "tolerance", tolerances(quick), kDefaultTolerance, false,
+         [=](const AnyRay& q, double tolerance) { return steps(q, method, tolerance); }});
+  };
+  if (hole) {
+    for (const auto& [name, method] : kTraceMethods)
+      if (is_integrator(method)) add(name, by_steps, method);
+    return methods;
+  }
+  const std::string of = kind == RayKind::kCharge ? "binet-" : "";
+  add(of + "dopri5", by_light_steps, FallMethod::kDopri5);
+  add(of + "rkf78", by_light_steps, FallMethod::kFehlberg78);
   return methods;
 }
 

@@ -1,24 +1,18 @@
 // measure_rays() gives error against run time of every method of following a ray, by the observer's
-// region and the kind of difficulty.  The truth is reference_ray().  A new method needs to be added to
+// region and the kind of difficulty.  A new method needs to be added to
 // the list of compared_methods() only.  measure_view_ray_speed() says what a view ray costs in a
 // frame, where 128 of them are traced together from the camera to the sky, with aberration, table,
 // redshift and footprint.
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "pipeline/light/traced_ray.h"
 #include "pipeline/report/ray_samples.h"
+#include "pipeline/report/stepped_light.h"
 
 namespace domefall {
-
-struct FollowedRay {
-  std::optional<SkyRegion> origin;  // none if the method does not decide
-  double phi;                       // swept azimuth, radians
-};
 
 // A RayMethod is one way to follow a ray, with the settings at which the report tries it.
 struct RayMethod {
@@ -27,11 +21,11 @@ struct RayMethod {
   std::vector<double> settings;  // at least one
   double default_setting;        // one of them
   bool keeps_tables;             // whether the first ray at a radius builds tables for all others
-  std::function<FollowedRay(const RayRequest&, double setting)> follow;
+  std::function<FollowedRay(const AnyRay&, double setting)> follow;
 };
 
-// Returns the methods.  If quick, none of them has more than two settings.
-std::vector<RayMethod> compared_methods(bool quick);
+// Returns the methods for rays of a kind.  If quick, none of them has more than two settings.
+std::vector<RayMethod> compared_methods(RayKind kind, bool quick);
 
 struct ViewRaySpeedRow {
   std::string from;  // the observer

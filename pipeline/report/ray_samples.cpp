@@ -26,14 +26,22 @@ constexpr std::array kSampleObservers{
 // The ranges keep 0.05 M off the horizon, which extreme_rays.cpp tries on its own.  Region IV sees
 // no sky, so it has no edge between skies.
 constexpr std::array kClasses{
-    RayClass{"I", Difficulty::kOrdinary, "ordinary", 2.05, 100},
-    RayClass{"I", Difficulty::kEdge, "edge", 2.05, 100},
-    RayClass{"I", Difficulty::kFar, "far", 1e3, 1e8},
-    RayClass{"II", Difficulty::kOrdinary, "ordinary", 0.1, 1.95},
-    RayClass{"II", Difficulty::kEdge, "edge", 0.1, 1.95},
-    RayClass{"II", Difficulty::kDeep, "deep", 1e-6, 0.1},
-    RayClass{"IV", Difficulty::kOrdinary, "ordinary", 0.1, 1.95},
-    RayClass{"IV", Difficulty::kDeep, "deep", 1e-6, 0.1},
+    RayClass{RayKind::kHole, "I", Difficulty::kOrdinary, "ordinary", 2.05, 100},
+    RayClass{RayKind::kHole, "I", Difficulty::kEdge, "edge", 2.05, 100},
+    RayClass{RayKind::kHole, "I", Difficulty::kFar, "far", 1e3, 1e8},
+    RayClass{RayKind::kHole, "II", Difficulty::kOrdinary, "ordinary", 0.1, 1.95},
+    RayClass{RayKind::kHole, "II", Difficulty::kEdge, "edge", 0.1, 1.95},
+    RayClass{RayKind::kHole, "II", Difficulty::kDeep, "deep", 1e-6, 0.1},
+    RayClass{RayKind::kHole, "IV", Difficulty::kOrdinary, "ordinary", 0.1, 1.95},
+    RayClass{RayKind::kHole, "IV", Difficulty::kDeep, "deep", 1e-6, 0.1},
+    RayClass{RayKind::kCharge, "charge_I", Difficulty::kOrdinary, "ordinary", 0.025, 50},
+    RayClass{RayKind::kCharge, "charge_I", Difficulty::kEdge, "edge", 0.025, 50},
+    RayClass{RayKind::kCharge, "charge_II", Difficulty::kOrdinary, "ordinary", 0.02, 0.98},
+    RayClass{RayKind::kCharge, "charge_II", Difficulty::kEdge, "edge", 0.02, 0.98},
+    RayClass{RayKind::kWormhole, "ellis", Difficulty::kOrdinary, "ordinary", 1e-3, 1e3},
+    RayClass{RayKind::kWormhole, "ellis", Difficulty::kEdge, "edge", 1e-3, 1e3},
+    RayClass{RayKind::kWormhole, "dngr", Difficulty::kOrdinary, "ordinary", 1e-3, 1e3},
+    RayClass{RayKind::kWormhole, "dngr", Difficulty::kEdge, "edge", 1e-3, 1e3},
 };
 
 std::vector<TraceObserver> observers_in(std::string_view region) {
@@ -119,24 +127,121 @@ ReferenceObserver observer_from(TraceObserver observer) {
   return ReferenceObserver::kRain;
 }
 
+WormholeShape shape_of(const Wormhole& wormhole) {
+  WormholeShape shape{wormhole.half_length()};
+  if (wormhole.profile == Wormhole::Profile::kDngr) shape.mass = wormhole.lensing_mass();
+  return shape;
+}
+
+// Next to a horizon the distance has the digits that r has lost.
+Real50 exact_radius(const ChargedRequest& ray) {
+  if (ray.hole.is_naked()) return ray.at.r;
+  const Real50 q = ray.hole.charge_long(), apart = sqrt(Real50((1 - q) * (1 + q)));
+  if (std::abs(ray.at.above_outer) < 0.1) return 1 + apart + ray.at.above_outer;
+  if (std::abs(ray.at.above_inner) < 0.1) return 1 - apart + ray.at.above_inner;
+  return ray.at.r;
+}
+
+Real50 exact_delta(const AnyRay& ray) {
+  if (const auto* within = std::get_if<WormholeRequest>(&ray))
+    return throat_angle(shape_of(within->wormhole), abs(Real50(within->l))) + within->offset;
+  const auto& charged = std::get<ChargedRequest>(ray);
+  if (!charged.edge) return charged.delta;
+  const ChargedEdges edges = charged_edges(charged.hole.charge_long(), exact_radius(charged));
+  return 2 * atan(abs(charged.edge == Critical::kFirst ? edges.first : edges.second)) +
+         charged.offset;
+}
+
+SweptAzimuth swept_at(const AnyRay& ray, const Real50& delta) {
+  if (const auto* within = std::get_if<WormholeRequest>(&ray))
+    return reference_wormhole_ray(shape_of(within->wormhole), abs(Real50(within->l)), delta);
+  const auto& charged = std::get<ChargedRequest>(ray);
+  return reference_charged_ray(charged.hole.charge_long(), exact_radius(charged), delta);
+}
+
+// Returns a ray with its truth, and the slope by a difference.  `off` is how far it is from an edge.
+SampleRay with_swept_truth(const AnyRay& ray, double off) {
+  const Real50 delta = exact_delta(ray), h = 1e-10 * std::abs(off);
+  const SweptAzimuth truth = swept_at(ray, delta);
+  return {ray, truth.sky == ReferenceSky::kOwn ? SkyRegion::kI : SkyRegion::kIII,
+          static_cast<double>(truth.azimuth),
+          static_cast<double>((swept_at(ray, delta + h).azimuth - truth.azimuth) / h)};
+}
+
+// Returns a random ray from one of the skies of an observer near a charge.
+SampleRay throw_charged_ray(const RayClass& of, const ChargedHole& hole, double r, Dice& dice) {
+  const bool third = of.region == std::string_view("charge_II") && dice.heads();
+  ChargedRequest request{hole, hole.at(r), 0, third ? Critical::kSecond : Critical::kFirst, 0};
+  const auto edge = static_cast<double>(exact_delta(request));
+  const double off = of.difficulty == Difficulty::kEdge
+                         ? dice.even_log(kLeastOffset, kMostOffset)
+                         : dice.even(0, third ? edge : std::numbers::pi - edge);
+  request.offset = third ? -off : off;
+  request.delta = edge + request.offset;
+  if (of.difficulty == Difficulty::kOrdinary) request.edge.reset();
+  return with_swept_truth(request, off);
+}
+
+SampleRay throw_wormhole_ray(const RayClass& of, const Wormhole& wormhole, double l, Dice& dice) {
+  WormholeRequest request{wormhole, l, 0, 0};
+  const auto edge = static_cast<double>(exact_delta(request));
+  request.offset = of.difficulty == Difficulty::kEdge
+                       ? dice.even_log(kLeastOffset, kMostOffset) * (dice.heads() ? 1 : -edge)
+                       : dice.even(-edge, std::numbers::pi - edge);
+  request.delta = edge + request.offset;
+  return with_swept_truth(request, request.offset);
+}
+
+RayGroup throw_group(const RayClass& of, std::size_t group, int rays, Dice& dice) {
+  RayGroup thrown;
+  const auto repeat = [&](const auto& ray) {
+    for (int k = 0; k < rays; ++k) thrown.push_back(ray());
+    return thrown;
+  };
+  if (of.kind == RayKind::kCharge) {
+    const ChargedHole hole(1, 1 - dice.even_log(1e-12, 0.9));
+    const double out = hole.horizon(), in = hole.inner_horizon();
+    const double r = of.region == std::string_view("charge_I")
+                         ? out * (1 + dice.even_log(of.r_least, of.r_most))
+                         : in + (out - in) * dice.even(of.r_least, of.r_most);
+    return repeat([&] { return throw_charged_ray(of, hole, r, dice); });
+  }
+  const double r = dice.even_log(of.r_least, of.r_most);
+  if (of.kind == RayKind::kHole) {
+    const std::vector<TraceObserver> observers = observers_in(of.region);
+    const TraceObserver observer = observers[group % observers.size()];
+    return repeat([&] { return with_truth(throw_ray(observer, of.difficulty, r, dice)); });
+  }
+  Wormhole wormhole;
+  if (of.region == std::string_view("dngr"))
+    wormhole = {.profile = Wormhole::Profile::kDngr,
+                .length = dice.even_log(1e-2, 1e2),
+                .lensing_width = dice.even_log(1e-2, 1e2)};
+  return repeat([&] { return throw_wormhole_ray(of, wormhole, r, dice); });
+}
+
 }  // namespace
 
 std::span<const RayClass> ray_classes() { return kClasses; }
 
+std::string place_of(const RayClass& of) {
+  const std::string region = of.region;
+  if (of.kind == RayKind::kCharge)
+    return "region " + region.substr(region.find('_') + 1) + " near a charge";
+  return (of.kind == RayKind::kHole ? "region " : "a wormhole of the profile ") + region;
+}
+
 std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius) {
-  const std::vector<TraceObserver> observers = observers_in(of.region);
   constexpr std::uint64_t kSeed = 1511'06025;  // arXiv:1511.06025 is the paper
   // Each kind of difficulty has numbers of its own.
   Dice dice(kSeed + static_cast<std::uint64_t>(of.difficulty));
-  std::vector<RayGroup> groups(static_cast<std::size_t>(radii));
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    const TraceObserver observer = observers[g % observers.size()];
-    const double r = dice.even_log(of.r_least, of.r_most);
-    for (int k = 0; k < per_radius; ++k)
-      groups[g].push_back(with_truth(throw_ray(observer, of.difficulty, r, dice)));
-  }
+  std::vector<RayGroup> groups;
+  for (int g = 0; g < radii; ++g)
+    groups.push_back(throw_group(of, static_cast<std::size_t>(g), per_radius, dice));
   return groups;
 }
+
+SweptAzimuth swept_truth(const AnyRay& ray) { return swept_at(ray, exact_delta(ray)); }
 
 ReferenceRequest reference_request(const RayRequest& q) {
   ReferenceRequest exact{observer_from(q.observer), exact_radius(q.at), Wide(q.delta), std::nullopt,

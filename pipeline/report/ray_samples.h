@@ -1,12 +1,17 @@
-// The report measures with random rays, each of which has its truth from reference_ray().  They are
-// classed by the region of the observer and by a kind of difficulty.
+// The report measures with random rays, each of which has its truth from reference_ray() or, near a
+// charge and in a wormhole, from reference_swept.h.  They are classed by where the observer is and by a
+// kind of difficulty.
 #pragma once
 
 #include <span>
+#include <variant>
 #include <vector>
 
+#include "pipeline/light/traced_charge.h"
 #include "pipeline/light/traced_ray.h"
+#include "pipeline/light/traced_wormhole.h"
 #include "pipeline/report/reference/reference_ray.h"
+#include "pipeline/report/reference/reference_swept.h"
 
 namespace domefall {
 
@@ -23,16 +28,29 @@ enum class Difficulty {
   kFar,       // r from 1e3 to 1e8 M; half of the rays within a thousand radii of the silhouette
 };
 
+// What the rays go around.
+enum class RayKind { kHole, kCharge, kWormhole };
+
 struct RayClass {
-  const char* region;  // of the observer: I, II or IV
+  RayKind kind;
+  const char* region;  // of the observer: I, II, IV, charge_I, charge_II; or a profile: ellis, dngr
   Difficulty difficulty;
   const char* name;  // of the difficulty
+  // Of r or, in a wormhole, of l.  Near a charge it is the distance from the outer horizon over its
+  // r, or between the horizons the part of the way from the inner one.
   double r_least, r_most;
 };
 std::span<const RayClass> ray_classes();
+// Returns "region II near a charge" and the like.
+std::string place_of(const RayClass& of);
+
+using AnyRay = std::variant<RayRequest, ChargedRequest, WormholeRequest>;
+
+// Returns the truth of a ray near a charge or in a wormhole, for the very numbers of the request.
+SweptAzimuth swept_truth(const AnyRay& ray);
 
 struct SampleRay {
-  RayRequest request;
+  AnyRay request;
   SkyRegion origin;
   double phi, slope;  // the truth, rounded to double
 };
@@ -42,7 +60,8 @@ using RayGroup = std::vector<SampleRay>;
 
 // Returns the same rays whenever and wherever it is called.  ln r is distributed evenly, and so is
 // delta unless Difficulty says otherwise.  Offsets from an edge lie on both sides, and their
-// logarithms are distributed evenly.
+// logarithms are distributed evenly.  Near a charge, of which ln(1 - q) is distributed evenly from 1e-12
+// on, only rays from a sky count.  The widths and lengths of throats lie between 1e-2 and 1e2 radii.
 std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius);
 
 }  // namespace domefall

@@ -7,6 +7,7 @@
 
 #include "pipeline/light/aberration.h"
 #include "pipeline/light/lens_store.h"
+#include "pipeline/show/curve.h"
 #include "pipeline/show/viewer.h"
 
 namespace domefall {
@@ -81,6 +82,18 @@ V3d motion_seen(const ObserverState& o, const Viewer& viewer) {
   return motion_direction(resting);
 }
 
+// Returns the direction of the hole in the tetrad, or that of a wormhole's nearer mouth.  From one
+// radius outside of the throat on, the latter turns around by way of Phi, so that it does not jump
+// where an observer passes.
+V3d hole_direction(const ObserverState& o) {
+  const auto* wormhole = std::get_if<Wormhole>(&o.spacetime.kind());
+  const double near = wormhole ? wormhole->half_length() + 1 : 0;
+  if (o.l >= near) return {-1, 0, 0};
+  if (o.l <= -near) return {1, 0, 0};
+  const double angle = std::numbers::pi * smooth_step((near - o.l) / (2 * near));
+  return {-std::cos(angle), 0, std::sin(angle)};
+}
+
 // Returns the observer's lens, without tables, which a camera needs none of.
 std::shared_ptr<const Lens> aiming_lens(const ObserverState& o) {
   return LensStore().lens(o, {{false, false, false}});
@@ -139,10 +152,10 @@ V3d motion_direction(const ObserverState& o) {
 std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& o,
                                     const Effects& effects) {
   const Viewer viewer = viewer_of(o, effects);
-  const V3d hole = to_observer(viewer.celerity, V3d(-1, 0, 0)).direction;
+  const V3d hole = to_observer(viewer.celerity, hole_direction(o)).direction;
   if (std::holds_alternative<LookAtHole>(attitude)) return hole;
   if (std::holds_alternative<LookOutward>(attitude))
-    return to_observer(viewer.celerity, V3d(1, 0, 0)).direction;
+    return to_observer(viewer.celerity, V3d(0, 0, 0) - hole_direction(o)).direction;
   if (std::holds_alternative<LookAlongMotion>(attitude)) {
     const V3d motion = motion_seen(o, viewer);
     // What is left of the motion of an observer who has stopped is rounding.

@@ -24,8 +24,16 @@ OrbitPoint in_rain(const Spacetime& spacetime, OrbitPoint point) {
 double first_proper_time(const Body& body) {
   return body.shines_before ? birth(body.trajectory) - double(body.start) : 0;
 }
-// Returns the proper time since Body::start at which a body ends.
-double last_proper_time(const Body& body) { return lifetime(body.trajectory) - double(body.start); }
+// Returns the proper time since Body::start at which a body ends, or goes through the inner horizon
+// of a charge, beyond which it is not seen.
+double last_proper_time(const Spacetime& spacetime, const Body& body) {
+  double end = lifetime(body.trajectory);
+  if (const auto* hole = std::get_if<ChargedHole>(&spacetime.kind()))
+    if (const auto inner =
+            time_at(body.trajectory, hole->inner_horizon(), Leg::kInward, body.start))
+      end = std::min(end, double(*inner));
+  return end - double(body.start);
+}
 
 }  // namespace
 
@@ -45,7 +53,9 @@ BodyMotion motion_of(const Spacetime& spacetime, const Body& body, const M33d& s
   return {[=](double tau) {
             const OrbitPoint now = point(tau);
             // The radius 0 of a BodyPoint without values stands for a body that is not there yet.
-            if (now.region == Region::kIV) return BodyPoint{};
+            // Near a charge it may come from a universe before.
+            if (now.region == Region::kIV || now.region == Region::kV || now.universe != 0)
+              return BodyPoint{};
             const double phi = body.azimuth + (now.azimuth - start.azimuth);
             return BodyPoint{node * std::cos(phi) + onward * std::sin(phi),
                              now.r,
@@ -54,7 +64,7 @@ BodyMotion motion_of(const Spacetime& spacetime, const Body& body, const M33d& s
                              now.celerity.x,
                              normal * (now.r * now.celerity.z)};
           },
-          first_proper_time(body), last_proper_time(body)};
+          first_proper_time(body), last_proper_time(spacetime, body)};
 }
 
 Beginning beginning_beside(const Spacetime& spacetime, const Body& body, double tau,

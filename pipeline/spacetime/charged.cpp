@@ -74,6 +74,13 @@ double ChargedHole::last_stable_orbit() const {
   return 2 + 2 * m * (c > 1 ? std::cosh(std::acosh(c) / 3) : std::cos(std::acos(c) / 3));
 }
 
+double ChargedHole::circling_time(double r) const {
+  const Long q2 = charge_long() * charge_long();
+  const Long below =
+      has_light_circle() ? (r - circle()) * (r - 3 + circle()) : Long{r} * (r - 3) + 2 * q2;
+  return static_cast<double>(std::sqrt(below / (r - q2)));
+}
+
 // Of r_- - r_x it is known that (r_- - r_c)^2 (r_- - r_x) (r_- + r_c + kappa/sqrt(r_c)) = r_-^4.
 Long ChargedHole::edges_below_inner() const {
   const Long c = circle(), r = inner_radius(), square = r * r / (c - r);
@@ -185,6 +192,19 @@ ChargedHole::CriticalTangents ChargedHole::critical_tangents(const ChargedRadius
   if (square < 0) return {false, middle, middle, 2 * std::abs(x)};
   if (x >= 0) return {true, f / (middle + x), middle + x, 2 * x};
   return {true, middle - x, f / (middle - x), 2 * x};
+}
+
+// r* = r + (1 + k) ln(r - r_+) + (1 - k) ln(r - r_-) with k = (2 - q^2)/(2 d).  Where the horizons
+// are one, the terms with k are -(2 - q^2)/(r - 1) together.
+PixelTortoise::PixelTortoise(const ChargedHole& hole)
+    : outer_(hole.horizon()), inner_(hole.inner_horizon()) {
+  const Long q = hole.charge_long(), d = std::sqrt(hole.horizon_distance_squared());
+  const Long k = d > 0 ? (2 - q * q) / (2 * d) : 0;
+  by_outer_ = static_cast<double>(1 + k);
+  by_inner_ = static_cast<double>(1 - k);
+  pole_ = d > 0 ? 0 : 1;
+  constexpr double kSomewhere = 10;
+  shift_ = hole.tortoise(kSomewhere) - at(kSomewhere, [](double x) { return std::log(x); });
 }
 
 }  // namespace domefall

@@ -58,14 +58,17 @@ struct ChargedHole {
 
   // Returns r_+, the r that region I lies above, or 0 for a naked singularity.
   double horizon() const { return is_naked() ? 0 : static_cast<double>(outer_horizon()); }
-  double innermost() const { return inner_horizon(); }
   double inner_horizon() const { return is_naked() ? 0 : static_cast<double>(inner_radius()); }
+  double above_horizon(double r) const { return is_naked() ? r : at(r).above_outer; }
   // Returns r_c, or 0 where light cannot circle (q^2 > 9/8).
   double light_circle() const { return has_light_circle() ? static_cast<double>(circle()) : 0; }
   // Returns the least r of the stable circles that reach to infinity, the largest root of r^3 - 6
   // r^2 + 9 q^2 r - 4 q^4 = 0.  For q^2 > 5/4 all circles are stable, down to r = q^2, where bodies
   // rest.
   double last_stable_orbit() const;
+  // Returns sqrt((r^2 - 3r + 2q^2)/(r - q^2)) = r/L of a free circular orbit.  Infinite at r = q^2 of
+  // a naked singularity, where bodies rest.
+  double circling_time(double r) const;
   // Returns q^2/2, where free fall from rest at infinity turns, since the hole repels there.
   double fall_turns_at() const { return charge * charge / 2; }
   // Returns kappa, the b = L/E of the light that circles.  Light must be able to circle.
@@ -84,6 +87,9 @@ struct ChargedHole {
   long double delta(const ChargedRadius& at) const;
   double lapse_squared(const ChargedRadius& at) const;
   double lapse_squared(double r) const { return lapse_squared(at(r)); }
+  double lapse_squared_above(double r, double above) const {
+    return lapse_squared(is_naked() ? at(r) : at(ChargedMark::kOuterHorizon, above));
+  }
 
   StaticTime static_time(double r) const {
     const double f = lapse_squared(r);
@@ -100,6 +106,13 @@ struct ChargedHole {
   // l^2, where l = r dphi/dtau.
   double radial_celerity(const ChargedRadius& at, double radial, double energy, double l2,
                          bool outgoing) const;
+
+  // The same of what moves with l = r dphi/dtau and E > 0.
+  double moving_celerity(double r, double radial, double l, bool outgoing) const {
+    const ChargedRadius place = at(r);
+    const double energy = std::sqrt(radial * radial + lapse_squared(place) * (1 + l * l));
+    return radial_celerity(place, radial, energy, l * l, outgoing);
+  }
 
   // Returns r*, with which v = t + r* and u = t - r* are the times of light that falls and that
   // rises.  It is 0 at r = 0, as Schwarzschild's, and is infinite on the horizons.  The error is some
@@ -144,6 +157,24 @@ struct ChargedHole {
   long double kappa() const;
   long double edges_radius() const;
   long double edges_below_inner() const;  // r_- - r_x, q <= 1
+};
+
+// A PixelTortoise gives r* outside the horizon to pixels, by a logarithm of their own.  On the
+// horizon, where r* is infinite, a finite number stands for it.  The error is below 1e-8.
+class PixelTortoise {
+ public:
+  explicit PixelTortoise(const ChargedHole& hole);
+
+  template <class Logarithm>
+  double at(double r, const Logarithm& logarithm) const {
+    constexpr double kLeast = 1e-9;
+    const double outer = r - outer_ > kLeast ? r - outer_ : kLeast, inner = r - inner_;
+    const double pole = pole_ > 0 ? pole_ / outer : 0;
+    return shift_ + r + by_outer_ * logarithm(outer) + by_inner_ * logarithm(inner) - pole;
+  }
+
+ private:
+  double outer_, inner_, by_outer_, by_inner_, pole_, shift_ = 0;
 };
 
 }  // namespace domefall

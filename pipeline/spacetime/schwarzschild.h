@@ -31,8 +31,11 @@ struct Schwarzschild {
   static std::vector<double> parameters() { return {}; }
 
   static constexpr double horizon() { return 2; }
+  static constexpr double inner_horizon() { return 0; }
+  static constexpr double above_horizon(double r) { return r - 2; }
   static constexpr double light_circle() { return 3; }       // where light circles
   static constexpr double last_stable_orbit() { return 6; }  // of what has mass
+  static double circling_time(double r) { return std::sqrt(r - 3); }
   // b = L/E of the light that circles, 3 sqrt 3.  An edge of a sky is a ray of this |b|.
   static constexpr double kCriticalImpact = 5.196152422706632;
 
@@ -44,7 +47,6 @@ struct Schwarzschild {
 
   static StaticTime static_time(double r) { return {1, free_fall_speed(r)}; }
   static double fall_celerity(double) { return 0; }  // the rain tetrad itself
-  static double innermost() { return 0; }
 
   // Returns 1 - s, by (1 - s^2)/(1 + s), which does not cancel next to the horizon.
   static double below_light_speed(const Radius& at) {
@@ -56,6 +58,8 @@ struct Schwarzschild {
   static double lapse_squared(const Radius& at) {
     return std::isinf(at.r) ? 1 : at.above_horizon / at.r;
   }
+
+  static double lapse_squared_above(double r, double above) { return above / r; }
 
   // Returns gamma v along R, against the rain tetrad, of what is at rest in r (outside) or in t
   // (inside, T_II and T_IV of [Riazuelo] eq. TR_IV), for r != 2.
@@ -73,6 +77,13 @@ struct Schwarzschild {
     const double w =
         inward >= 0 ? squares / (s * energy + inward) : (s * energy - inward) / lapse_squared(r);
     return outgoing ? -w : w;
+  }
+
+  // The same of what moves with l = r dphi/dtau and E > 0, for which (1 - E^2) + l^2 is
+  // (2/r)(1 + l^2) - (u^r)^2.
+  static double moving_celerity(double r, double radial, double l, bool outgoing) {
+    const double energy = std::sqrt(radial * radial + lapse_squared(r) * (1 + l * l));
+    return radial_celerity(r, radial, energy, 2 / r * (1 + l * l) - radial * radial, outgoing);
   }
 
   // Returns r* = r + 2 ln|r/2 - 1|, with which v = t + r* and u = t - r* are the times of light that

@@ -26,13 +26,17 @@ struct FlatSpace {
   static double seconds_per_m() { return 1; }
   static std::vector<double> parameters() { return {}; }
   static double horizon() { return 0; }
+  static double inner_horizon() { return 0; }
+  static double above_horizon(double r) { return r; }
   static double light_circle() { return 0; }
   static double last_stable_orbit() { return 0; }
+  static double circling_time(double) { return 0; }
   static StaticTime static_time(double) { return {}; }
   static double fall_celerity(double) { return 0; }
-  static double innermost() { return 0; }
   static double lapse_squared(double) { return 1; }
+  static double lapse_squared_above(double, double) { return 1; }
   static double resting_celerity(double) { return 0; }
+  static double moving_celerity(double, double radial, double, bool) { return radial; }
   static double tortoise(double r) { return r; }
   static PerSky<bool> seen_skies(Region, Tetrad tetrad, int universe, double) {
     PerSky<bool> seen;
@@ -79,11 +83,24 @@ class Spacetime {
   double horizon() const {
     return std::visit([](const auto& kind) { return kind.horizon(); }, kind_);
   }
+  // Returns r minus that, with the digits that r has lost beside it.
+  double above_horizon(double r) const {
+    return std::visit([r](const auto& kind) { return kind.above_horizon(r); }, kind_);
+  }
+  // Returns the r inside which things rest again, or 0.
+  double inner_horizon() const {
+    return std::visit([](const auto& kind) { return kind.inner_horizon(); }, kind_);
+  }
   double light_circle() const {
     return std::visit([](const auto& kind) { return kind.light_circle(); }, kind_);
   }
   double last_stable_orbit() const {
     return std::visit([](const auto& kind) { return kind.last_stable_orbit(); }, kind_);
+  }
+  // Returns the proper time, over r, in which a free circular orbit turns by one radian.  Where there
+  // is no such orbit it is NaN, or 0.
+  double circling_time(double r) const {
+    return std::visit([r](const auto& kind) { return kind.circling_time(r); }, kind_);
   }
 
   StaticTime static_time(double r) const {
@@ -93,6 +110,10 @@ class Spacetime {
   double lapse_squared(double r) const {
     return std::visit([r](const auto& kind) { return kind.lapse_squared(r); }, kind_);
   }
+  // Returns f of a place whose distance above the horizon is known better than by its r.
+  double lapse_squared_above(double r, double above) const {
+    return std::visit([=](const auto& kind) { return kind.lapse_squared_above(r, above); }, kind_);
+  }
   // Returns the frequency of light from infinity for the observer at rest, over that at infinity:
   // 1/(1 + z_grav) = 1/sqrt(f), [Riazuelo] eq. zgrav, for r above the horizon.
   double gravitational_ratio(double r) const { return 1 / std::sqrt(lapse_squared(r)); }
@@ -101,13 +122,16 @@ class Spacetime {
   double resting_celerity(double r) const {
     return std::visit([r](const auto& kind) { return kind.resting_celerity(r); }, kind_);
   }
+  // Returns gamma v along R, against the rain tetrad or the outgoing one, of what moves with dr/dtau
+  // and r dphi/dtau and has an energy above 0.
+  double moving_celerity(double r, double radial, double tangential, bool outgoing) const {
+    return std::visit(
+        [=](const auto& kind) { return kind.moving_celerity(r, radial, tangential, outgoing); },
+        kind_);
+  }
   // Returns gamma v along R, against rain, of free fall from rest at infinity.
   double fall_celerity(double r) const {
     return std::visit([r](const auto& kind) { return kind.fall_celerity(r); }, kind_);
-  }
-  // Returns the r that no light is drawn at or below, or 0.
-  double innermost() const {
-    return std::visit([](const auto& kind) { return kind.innermost(); }, kind_);
   }
   // Returns r*, with which v = t + r* and u = t - r* are the times of light that falls and rises.
   double tortoise(double r) const {

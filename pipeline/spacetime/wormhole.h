@@ -69,13 +69,17 @@ struct Wormhole {
   double seconds_per_m() const { return radius_km / kLightSecondKm; }
   std::vector<double> parameters() const;
   static constexpr double horizon() { return 0; }
+  static constexpr double inner_horizon() { return 0; }
+  static double above_horizon(double r) { return r; }
   static constexpr double light_circle() { return 1; }
   static constexpr double last_stable_orbit() { return 0; }
+  static constexpr double circling_time(double) { return 0; }
   static StaticTime static_time(double) { return {}; }
   static double fall_celerity(double) { return 0; }
-  static constexpr double innermost() { return 0; }
   static double lapse_squared(double) { return 1; }
+  static double lapse_squared_above(double, double) { return 1; }
   static double resting_celerity(double) { return 0; }
+  static double moving_celerity(double, double radial, double, bool) { return radial; }
   double tortoise(double r) const { return distance(r - 1); }  // |l|, a in the whole cylinder
   static PerSky<bool> seen_skies(Region, Tetrad, int, double) {
     PerSky<bool> seen;

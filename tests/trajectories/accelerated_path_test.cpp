@@ -7,7 +7,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/trajectories/conserved.h"
 #include "tests/trajectories/motion.h"
+#include "trajectories/charged_orbit.h"
 #include "trajectories/infall.h"
 #include "trajectories/static_observer.h"
 #include "trajectories/trajectory.h"
@@ -145,6 +147,64 @@ TEST(AcceleratedPath, EndsWhereItsKeysEnd) {
   EXPECT_EQ(point_at(Trajectory(descent()), 60).r, descent().at(60).r);
 }
 
+// Its states say how its places change, outside a charge, between its horizons and inside of both,
+// and about a naked singularity.
+TEST(AcceleratedPath, NearAChargeItsStatesMoveAsItsPlacesDo) {
+  const ChargedHole hole(1, 0.8L), naked(1, 1.2L);
+  const AcceleratedPath in(
+      {{0, 6, 0}, {4, 3, 0.3}, {5.2, 1, 0.35}, {5.7, 0.36, 0.36, 0.0}, {9, 0.34, 1}}, Tetrad::kRain,
+      hole);
+  const AcceleratedPath about({{0, 6, 0}, {20, 0.1, 0.3, 0}, {40, 3, 0.35}}, Tetrad::kRain, naked);
+  const AcceleratedPath out({{0, 0.35, 0}, {0.4, 0.8, 0}, {3, 4, 0.1}, {8, 5, 0.2, 0.0}},
+                            Tetrad::kOutgoing, hole);
+  EXPECT_EQ(in.at(1).region, Region::kI);
+  EXPECT_EQ(in.at(5).region, Region::kII);
+  EXPECT_EQ(in.at(8).region, Region::kV);
+  EXPECT_EQ(about.at(20).region, Region::kI);
+  EXPECT_EQ(out.at(0).region, Region::kV);
+  EXPECT_EQ(out.at(0.4).region, Region::kIV);
+  EXPECT_EQ(out.at(8).region, Region::kI);
+  const auto check = [](const AcceleratedPath& path, const ChargedHole& space) {
+    const double h = 1e-5;
+    for (double tau = 0.013; tau < path.end(); tau += 0.37) {
+      const OrbitPoint p = path.at(tau), before = path.at(tau - h), after = path.at(tau + h);
+      const Conserved m = conserved_by(space, p);
+      EXPECT_NEAR(m.radial, (after.r - before.r) / (2 * h), 1e-7 * (1 + m.scale)) << p.r;
+      EXPECT_NEAR(p.celerity.z, p.r * (after.azimuth - before.azimuth) / (2 * h), 1e-7) << p.r;
+      const double inward = is_outgoing(p.tetrad) ? m.radial : -m.radial,
+                   f = space.lapse_squared(p.r);
+      // dv/dtau, of which E + inward vanishes nowhere but on the horizon that is not crossed.
+      const double rate = (1 + p.celerity.z * p.celerity.z) / (m.energy + inward);
+      EXPECT_NEAR(double(after.null_time - before.null_time) / (2 * h), rate,
+                  1e-6 * rate * (1 + 1 / std::abs(f)))
+          << p.r;
+      EXPECT_GE(m.energy, 0);
+    }
+  };
+  check(in, hole);
+  check(about, naked);
+  check(out, hole);
+}
+
+TEST(AcceleratedPath, FollowsAFallIntoAChargeThroughItsKeys) {
+  const ChargedHole hole(1, 0.9L);
+  const ChargedOrbit fall = ChargedOrbit::from_rest(hole, 8, 1.5);
+  const double end = double(*fall.time_at(1, Leg::kInward));
+  std::vector<PathKey> keys;
+  for (int k = 0; k <= 400; ++k) {
+    const OrbitPoint p = fall.at(end * k / 400);
+    keys.push_back(
+        {end * k / 400, p.r, p.azimuth, conserved_by(hole, p).radial, p.celerity.z / p.r});
+  }
+  const AcceleratedPath path(keys, Tetrad::kRain, hole);
+  for (double tau = 0.05; tau < end; tau += 0.37) {
+    const OrbitPoint p = path.at(tau), q = fall.at(tau);
+    EXPECT_NEAR(p.r, q.r, 1e-6);
+    EXPECT_NEAR(double(p.null_time), double(q.null_time), 1e-4);
+    EXPECT_NEAR(conserved_by(hole, p).energy, fall.energy(), 1e-3) << tau;
+  }
+}
+
 TEST(AcceleratedPath, RefusesWhatCannotBeFlown) {
   const auto refusal = [](const std::vector<PathKey>& keys, Tetrad tetrad = Tetrad::kRain) {
     try {
@@ -170,6 +230,19 @@ TEST(AcceleratedPath, RefusesWhatCannotBeFlown) {
               HasSubstr("nothing stops rising in region IV"));
   EXPECT_THAT(refusal({{0, 5, 0, -50.0}, {10, 5, 0}}), HasSubstr("singularity"));
   EXPECT_THAT(refusal({{0, 5, 0, std::nan("")}, {10, 5, 0}}), HasSubstr("key 1"));
+  const auto near_charge = [](const std::vector<PathKey>& keys, long double charge) {
+    try {
+      const AcceleratedPath path(keys, Tetrad::kRain, ChargedHole(1, charge));
+    } catch (const std::domain_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(near_charge({{0, 1.5, 0}, {100, 1.0, 0}}, 0.8L), HasSubstr("faster than light"));
+  EXPECT_THAT(near_charge({{0, 1.5, 0, 0.1}, {0.3, 1.0, 0}}, 0.8L), HasSubstr("nothing stops"));
+  EXPECT_EQ(near_charge({{0, 1.65, 0}, {100, 1.61, 0}}, 0.8L), "accepted");
+  EXPECT_EQ(near_charge({{0, 0.39, 0}, {100, 0.38, 0}}, 0.8L), "accepted");
+  EXPECT_EQ(near_charge({{0, 1.5, 0}, {100, 1.0, 0}}, 1.2L), "accepted");
 }
 
 }  // namespace

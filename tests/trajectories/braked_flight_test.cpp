@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/trajectories/conserved.h"
 #include "tests/trajectories/motion.h"
 #include "trajectories/static_observer.h"
 
@@ -88,6 +89,51 @@ TEST(BrakedFlight, MovesAsItsEquationSays) {
       EXPECT_NEAR(radial_speed_of(p), rates(r).first, 1e-12) << c.from_r << " " << k;
     }
   }
+}
+
+// The same near a charge, from f written out.
+TEST(BrakedFlight, NearAChargeMovesAsItsEquationSays) {
+  for (const auto& [q, c] : {std::pair(0.8L, Brake{30, 5, 0.4}),
+                             {0.8L, Brake{8, 1.6 + 1e-5, 0.9}},
+                             {1.0L, Brake{1e3, 1.001, 0.3}},
+                             {1 - 1e-12L, Brake{20, 1.1, 0.7}},
+                             {1.2L, Brake{20, 0.2, 0.9}},
+                             {3.0L, Brake{1e9, 1, 0.9}}}) {
+    SCOPED_TRACE(testing::Message() << "q " << double(q) << ", " << c.from_r << " to " << c.stop_r);
+    const ChargedHole hole(1, q);
+    const BrakedFlight flight(c.from_r, c.stop_r, c.speed, hole);
+    const auto f = [q2 = double(q * q)](double r) { return 1 - 2 / r + q2 / (r * r); };
+    const auto rapidity = [&](double r) {
+      return std::atanh(c.speed) * std::pow((r - c.stop_r) / (c.from_r - c.stop_r), 2.0 / 3);
+    };
+    for (const double r : {c.from_r, 0.7 * c.from_r, 1.5 * c.stop_r, 1.01 * c.stop_r}) {
+      const double tau = double(*flight.time_at(r, Leg::kInward));
+      const OrbitPoint p = flight.at(tau);
+      EXPECT_NEAR(p.r / r, 1, 1e-12);
+      // dr/dtau is this.  E and dr/dtau are sqrt(f) cosh psi and -sqrt(f) sinh psi.
+      const Conserved m = conserved_by(hole, p);
+      EXPECT_NEAR(m.radial, -std::sqrt(f(r)) * std::sinh(rapidity(r)), 1e-11 * m.scale);
+      EXPECT_NEAR(m.energy, std::sqrt(f(r)) * std::cosh(rapidity(r)), 1e-11 * m.scale);
+      // Gauss's rule over a short way behind it.
+      const double h = 1e-3 * (flight.duration() - tau), gauss = std::sqrt(0.6);
+      double way = 0, null_time = 0;
+      for (const auto& [x, weight] :
+           {std::pair(-gauss, 5.0 / 18), {0.0, 8.0 / 18}, {gauss, 5.0 / 18}}) {
+        const double at = flight.at(tau + h * (1 + x) / 2).r, lapse = std::sqrt(f(at));
+        way += h * weight * lapse * std::sinh(rapidity(at));
+        null_time += h * weight * std::exp(-rapidity(at)) / lapse;
+      }
+      const OrbitPoint next = flight.at(tau + h);
+      EXPECT_NEAR((p.r - next.r) / way, 1, 1e-9 + 1e-15 * p.r / way);
+      EXPECT_NEAR(double(next.null_time - p.null_time) / null_time, 1, 1e-9);
+    }
+    const OrbitPoint end = flight.at(flight.duration() + 3);
+    EXPECT_EQ(end.celerity, resting_celerity(hole, c.stop_r, Tetrad::kRain));
+    EXPECT_EQ(end.r, c.stop_r);
+    EXPECT_NEAR(flight.at(std::nextafter(flight.duration(), 0)).celerity.x / end.celerity.x, 1,
+                1e-8);
+  }
+  EXPECT_THROW(BrakedFlight(5, 1.6, 0.5, ChargedHole(1, 0.8L)), std::domain_error);
 }
 
 // The felt acceleration is dE/dr.  It ends as that of hovering.

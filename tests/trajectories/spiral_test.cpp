@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "tests/trajectories/conserved.h"
 #include "tests/trajectories/motion.h"
 #include "trajectories/circular_orbit.h"
 
@@ -228,7 +229,56 @@ TEST(Spiral, OnlyFallsAndIsFoundAtEachRadius) {
   });
 }
 
+// Near a charge, too, it shrinks through free orbits and falls freely, with no jump.
+TEST(Spiral, NearAChargeShrinksAndFalls) {
+  for (const long double q : {0.1L, 0.5L, 0.8L, 0.99L, 1.0L}) {
+    const ChargedHole hole(1, q);
+    const double light = hole.light_circle(), stable = hole.last_stable_orbit();
+    for (const double from_r : {light * 1.02, (light + stable) / 2, stable, 1.5 * stable, 1e3})
+      for (const double turns : {0.8, 3.0, 40.0}) {
+        SCOPED_TRACE(testing::Message()
+                     << "q " << double(q) << " from " << from_r << ", " << turns);
+        const Spiral spiral(from_r, turns, hole);
+        const OrbitPoint inside = spiral.at(*spiral.time_at(hole.horizon(), Leg::kInward));
+        EXPECT_NEAR(inside.azimuth / (2 * std::numbers::pi), turns, 1e-11 * turns);
+        const ProperTime released = spiral.released();
+        const double soon = 1e-13 * double(released);
+        for (const ProperTime& tau : {ProperTime(spiral.pushed()), released}) {
+          const OrbitPoint a = spiral.at(tau - soon), b = spiral.at(tau + soon);
+          EXPECT_LT((b.celerity - a.celerity).length(), 1e-11 * (1 + double(released)));
+          EXPECT_NEAR(b.r, a.r, 1e-11 * (a.r + double(released)));
+          EXPECT_NEAR(double(b.null_time), double(a.null_time), 1e-11 * (1 + double(released)));
+        }
+        const Conserved freed = conserved_by(hole, spiral.at(released + soon));
+        for (const double r :
+             {0.99 * spiral.at(released).r, hole.horizon(), 1.01 * hole.inner_horizon()}) {
+          const auto tau = spiral.time_at(r, Leg::kInward, released);
+          if (!tau) continue;
+          const Conserved m = conserved_by(hole, spiral.at(*tau));
+          EXPECT_NEAR(m.energy, freed.energy, 1e-12 * m.scale) << r;
+          EXPECT_NEAR(m.momentum, freed.momentum, 1e-12 * freed.momentum) << r;
+        }
+        // Before, the angular momentum is that of the circle of its radius.
+        for (const double part : {0.1, 0.5, 0.9}) {
+          const OrbitPoint p = spiral.at(std::lerp(spiral.pushed(), double(released), part));
+          const double r = std::clamp(p.r, std::min(from_r, stable), 1e9);
+          EXPECT_NEAR(p.r * p.celerity.z / (r / hole.circling_time(r)), 1, 1e-12) << p.r;
+        }
+        using Gauss = boost::math::quadrature::gauss<double, 20>;
+        const double low = std::lerp(spiral.pushed(), double(released), 0.4),
+                     high = std::lerp(spiral.pushed(), double(released), 0.41);
+        const double way = Gauss::integrate(
+            [&](double tau) { return conserved_by(hole, spiral.at(tau)).radial; }, low, high);
+        EXPECT_NEAR(spiral.at(high).r - spiral.at(low).r, way, 1e-12 * from_r);
+      }
+  }
+  EXPECT_EQ(Spiral(8, 2, ChargedHole(1, 0.8L)).death(), INFINITY);
+}
+
 TEST(Spiral, RefusesWhatIsNoOrbit) {
+  EXPECT_THROW(Spiral(2.48, 2, ChargedHole(1, 0.8L)), std::domain_error);
+  // There the engines alone need 0.7 turns.
+  EXPECT_THROW(Spiral(20, 0.6, ChargedHole(1, 1.0L)), std::domain_error);
   EXPECT_THROW(Spiral(3, 2), std::domain_error);
   EXPECT_THROW(Spiral(-1, 2), std::domain_error);
   EXPECT_THROW(Spiral(std::nan(""), 2), std::domain_error);

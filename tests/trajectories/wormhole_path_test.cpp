@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/trajectories/wide_quadrature.h"
+
 namespace domefall {
 namespace {
 
@@ -106,6 +108,109 @@ TEST(WormholeFall, GoesWhereAnIntegratorGoes) {
     }
   }
   RecordProperty("worst", std::to_string(worst * 1e12) + "e-12");
+}
+
+// ---- quadrature with 50 digits, which shares nothing with the code ----
+
+// A leg of a path with impact parameter b, along y = |l| - a or |l| of ellis.
+struct WideLeg {
+  Wormhole wormhole;
+  Digits b;
+
+  bool is_ellis() const { return wormhole.profile == Profile::kEllis; }
+  Digits mass() const { return Digits(wormhole.lensing_width) / Digits("1.4295268191803120134"); }
+  Digits radius(const Digits& y) const {
+    if (is_ellis()) return sqrt(Digits(1 + y * y));
+    const Digits m = mass(), x = 2 * y / (boost::math::constants::pi<Digits>() * m);
+    return 1 + m * (x * atan(x) - log(Digits(1 + x * x)) / 2);
+  }
+  // Where it turns, or 0.
+  Digits first() const {
+    if (b <= 1) return 0;
+    if (is_ellis()) return sqrt(Digits(b * b - 1));
+    Digits low = 0, high = b * 10 * (1 + mass());
+    for (int k = 0; k < 200; ++k) (radius((low + high) / 2) < b ? low : high) = (low + high) / 2;
+    return high;
+  }
+  struct Sums {
+    double length, azimuth;
+  };
+  // From the turn, or from y = 0, to a place, beyond the cylinder.  The variable is ln(1 + (y -
+  // y_0)/m), which a narrow throat needs.
+  Sums to(const Digits& y) const {
+    const Digits from = first(), m = is_ellis() ? Digits(1) : std::min(mass(), Digits(1));
+    const auto rates = [&](const Digits& t) -> std::array<Digits, 2> {
+      const Digits r = radius(from + m * expm1(t)), under = r * r - b * b;
+      if (!(under > 0)) return {0, 0};
+      const Digits rate = m * exp(t) / sqrt(under);
+      return {Digits(rate * r), Digits(rate * b / r)};
+    };
+    constexpr int kPieces = 3;
+    const auto sums = wide_integrals<2>(rates, 0, log1p(Digits((y - from) / m)), kPieces);
+    return {sums[0], sums[1]};
+  }
+};
+
+TEST(WormholeFall, GoesWhereQuadratureSays) {
+  for (const Wormhole& w :
+       {Wormhole{1, Profile::kEllis}, Wormhole{1, Profile::kDngr, 1e-6, 1e-6},
+        Wormhole{1, Profile::kDngr, 1e-6, 2}, Wormhole{1, Profile::kDngr, 3, 1e-6},
+        Wormhole{1, Profile::kDngr, 0, 0.05}, Wormhole{1, Profile::kDngr, 1e6, 1e6}})
+    for (const double impact : {1e-3, 0.5, 1 - 1e-9, 1 + 1e-9, 3.0}) {
+      SCOPED_TRACE(testing::Message() << "length " << w.length << ", width " << w.lensing_width
+                                      << ", impact " << impact);
+      const double a = w.half_length();
+      const WideLeg leg{w, impact};
+      const double from = a + 50 * (1 + w.lensing_width);
+      const WormholeFall path(w, from, 0.6, impact, true);
+      const WideLeg::Sums whole = leg.to(Digits(from) - a);
+      // The cylinder itself is a straight line.
+      const double straight = impact < 1 ? a / std::sqrt((1 - impact) * (1 + impact)) : 0;
+      for (const double part : {1e-3, 0.9}) {
+        const double l = a + (from - a) * part;
+        if (!(w.radius(l) > impact * (1 + 1e-3))) continue;
+        const WideLeg::Sums sums = leg.to(Digits(l) - a);
+        const auto in = path.time_at_l(l), out = path.time_at_l(impact < 1 ? -l : l, *in + 1e-9);
+        ASSERT_TRUE(in && out) << l;
+        EXPECT_NEAR(double(*in) * 0.75, whole.length - sums.length, 1e-12 * whole.length) << l;
+        EXPECT_NEAR(double(*out - *in) * 0.75, 2 * (sums.length + straight),
+                    1e-12 * (whole.length + straight))
+            << l;
+        const OrbitPoint p = path.at(*in), q = path.at(*out);
+        EXPECT_NEAR(p.azimuth, whole.azimuth - sums.azimuth,
+                    1e-12 * whole.azimuth + 1e-15 * straight)
+            << l;
+        EXPECT_NEAR(q.azimuth - p.azimuth, 2 * (sums.azimuth + impact * straight),
+                    1e-12 * (whole.azimuth + impact * straight))
+            << l;
+        EXPECT_NEAR(p.l / l, 1, 1e-12);
+      }
+    }
+}
+
+TEST(WormholeFall, ThrownGoesAsItsCelerity) {
+  for (const Wormhole& w : {Wormhole{1, Profile::kEllis}, Wormhole{1, Profile::kDngr, 1e-6, 1e-6},
+                            Wormhole{1, Profile::kDngr, 3, 0.5}})
+    for (const double from : {-1e9, -4.0, -1e-3, 0.0, 0.2, 7.0, 1e9})
+      for (const double along : {-1e6, -0.3, -1e-6, 0.0, 1e-6, 2.0})
+        for (const double around : {0.0, 1e-6, 0.4, 1e3}) {
+          // What would circle in the throat is refused.
+          if (along == 0 && around == 0) continue;
+          if (w.radius(from) * (around / std::hypot(along, around)) == 1) continue;
+          SCOPED_TRACE(testing::Message() << from << " " << along << " " << around);
+          const WormholeFall path = WormholeFall::thrown(w, from, along, around);
+          const OrbitPoint p = path.at(0);
+          const double size = std::hypot(along, around);
+          EXPECT_NEAR(p.l, from, 1e-12 * (1 + std::abs(from)));
+          EXPECT_NEAR(p.celerity.z, around, 1e-12 * size);
+          // Where it turns, rounding of l is worth the root of that.
+          EXPECT_NEAR(p.celerity.x, along, (std::abs(along) < 1e-3 * around ? 1e-7 : 1e-12) * size);
+          for (const double tau : {-3.0, 0.1, 40.0}) {
+            const OrbitPoint q = path.at(tau / size);
+            EXPECT_NEAR(q.celerity.length() / size, 1, 1e-14);
+            EXPECT_NEAR(q.r * q.celerity.z, w.radius(from) * around, 1e-12 * w.radius(from) * size);
+          }
+        }
 }
 
 TEST(WormholeFall, ComesBackWhenTimeIsReversed) {
@@ -253,6 +358,14 @@ TEST(WormholeFlight, PassesTheThroatAndComesBack) {
     EXPECT_GT(path.at(*home).l, 0);
     for (const auto& tau : {in, out, home}) EXPECT_NEAR(path.at(*tau).r, 2, 1e-12);
     EXPECT_LT(double(*out), 20);
+    // It passes the throat twice, and comes back to where it began.
+    const auto there = path.time_at_l(0), back = path.time_at_l(0, *there + 1);
+    ASSERT_TRUE(there && back);
+    EXPECT_LT(double(*there), 20);
+    EXPECT_GT(double(*back), 20);
+    EXPECT_NEAR(path.at(*back).l, 0, 1e-14);
+    EXPECT_EQ(double(*path.time_at_l(5, 20)), 45);
+    EXPECT_FALSE(path.time_at_l(-4.1));
   }
 }
 

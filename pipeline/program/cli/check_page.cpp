@@ -70,7 +70,11 @@ class Page {
                        wormhole->radius_km, duration_text(show_.spacetime.seconds_per_m())));
     else
       line("black hole", "none: flat space");
-    if (const auto* hole = std::get_if<ChargedHole>(&show_.spacetime.kind()))
+    const auto* hole = std::get_if<ChargedHole>(&show_.spacetime.kind());
+    if (hole && hole->is_naked())
+      line("charge",
+           fmt::format("{:.6g} of its mass: a naked singularity, without a horizon", hole->charge));
+    else if (hole)
       line("charge", fmt::format("{:.6g} of its mass: horizons at r = {:.6g} M and {:.6g} M",
                                  hole->charge, hole->horizon(), hole->inner_horizon()));
   }

@@ -82,19 +82,6 @@ int stream_at(const fs::path& path, const fs::path& named) {
   }
 }
 
-void copy_all(int from, int to, const fs::path& named) {
-  std::vector<char> piece(std::size_t{64} << 10);
-  for (ssize_t count = 0; (count = read(from, piece.data(), piece.size())) != 0;) {
-    if (count < 0) throw_file_error(named, errno);
-    for (ssize_t done = 0; done < count;) {
-      const ssize_t written =
-          write(to, piece.data() + done, static_cast<std::size_t>(count - done));
-      if (written < 0 && errno != EINTR) throw_file_error(named, errno);
-      if (written > 0) done += written;
-    }
-  }
-}
-
 }  // namespace
 
 OutputFile::OutputFile(const fs::path& path) : named_(path), path_(end_of_links(path, is_own)) {
@@ -116,10 +103,11 @@ OutputFile::~OutputFile() {
 
 void OutputFile::finish() {
   if (stream_ < 0) return;
-  const Descriptor content(open(path_.c_str(), O_RDONLY | O_CLOEXEC));
-  if (content.number() < 0) throw_file_error(path_, errno);
+  RegularFile content(path_);
   std::fflush(stdout);  // standard output may lead to the same place
-  copy_all(content.number(), stream_, named_);
+  std::vector<char> piece(std::size_t{64} << 10);
+  while (const std::size_t count = content.read(piece.data(), piece.size()))
+    if (!write_all(stream_, {piece.data(), count})) throw_file_error(named_, errno);
 }
 
 void write_output(const fs::path& path, std::string_view contents) {

@@ -53,14 +53,6 @@ Projection fitted(const Projection& projection, const MoviePreset& preset) {
   return with_sides(projection, size.width, size.height);
 }
 
-std::vector<int> movie_frame_numbers(const MovieOptions& o, const Show& show) {
-  std::vector<int> frames = parse_frames(o.frames, frame_count(show));
-  if (frames.back() - frames.front() + 1 != static_cast<int>(frames.size()))
-    throw InputError("--frames " + o.frames +
-                     ": the frames of a movie follow one another; name one range, such as 0-299");
-  return frames;
-}
-
 fs::path chosen_out(const MovieOptions& o, const Show& show, const MoviePreset& preset) {
   const std::string extension = "." + std::string(preset.extension);
   if (o.out.empty()) {
@@ -102,7 +94,7 @@ void movie(const MovieOptions& o) {
   const MoviePreset& preset = movie_preset(o.preset);
   Show show = read_show(o.show, o.size, o.overlays);
   if (o.size.empty() && o.from.empty()) show.projection = fitted(show.projection, preset);
-  const std::vector<int> frames = movie_frame_numbers(o, show);
+  const std::vector<int> frames = parse_frames(o.frames, frame_count(show));
   OutputFile out(chosen_out(o, show, preset));
   MoviePlan plan = plan_movie(preset, show, frames, show_sound(show, o.audio), out.path());
   const Grader grader(show.grade);

@@ -138,7 +138,6 @@ class Blocks {
 
   void fill(const std::vector<PenrosePoint>& corners) {
     std::vector<PagePoint> points;
-    points.reserve(corners.size());
     for (const PenrosePoint& p : corners) points.push_back(at_(p));
     page_.area(points, "#f1f2f5");
   }

@@ -117,7 +117,7 @@ void add_flash(const Show& show, const FrameState& state, SkyRegion sky, const c
 std::vector<ShowWarning> horizon_warnings(const Show& show) {
   std::vector<ShowWarning> warnings;
   if (!show.spacetime.leads_on()) return warnings;
-  const bool two_horizons = show.spacetime.horizon() > show.spacetime.innermost();
+  const bool two_horizons = show.spacetime.horizon() > show.spacetime.inner_horizon();
   const auto observer_in = [&](int frame) {
     const double t = frame / show.frames_per_second;
     const int segment = segment_at(show, t);

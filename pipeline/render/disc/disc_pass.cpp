@@ -27,7 +27,7 @@ DiscPass::DiscPass(const FrameScene& scene) : scene_(scene) {
   const V3d normal = apply_transposed(observer.sky_from_tetrad, disc.normal.v);
   plane_ = scene.tracer.lens()->plane({normal, disc.inner, disc.outer, disc.pattern.has_value()},
                                       observer.null_time);
-  if (disc.pattern) pattern_.emplace(*disc.pattern);
+  if (disc.pattern) pattern_.emplace(*disc.pattern, disc.orbits);
   node_ = apply_transposed(observer.sky_from_tetrad, disc.node.v);
   quarter_ = normal.cross(node_);
 }
@@ -62,8 +62,9 @@ DiscPass::Gas DiscPass::gas_at(const Crossings& crossings, int k, double turn, d
   const double r = 1 / plane_->images().inverse_radius(turn, u);
   const double energy = crossings.energy[k], momentum = plane_->momentum(label, energy);
   const double about = plane_->about_normal(azimuth_sine);
-  const double shift = disc_shift({energy, momentum, momentum * about}, r,
-                                  r < kPlungesBelow && goes_outward(turn, label, u));
+  const GasOrbits& orbits = scene_.disc->disc().orbits;
+  const double shift = disc_shift(orbits, {energy, momentum, momentum * about}, r,
+                                  r < orbits.last_stable() && goes_outward(turn, label, u));
   return {r, crossings.rays.frequency[k] / shift};
 }
 

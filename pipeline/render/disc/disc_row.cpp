@@ -176,8 +176,9 @@ DiscPass::Row::Node DiscPass::Row::sighted(const Crossings& crossings, int k) co
         place = kAbove;
       } else if (over_low >= 0) {
         const double u = (p - rims.low) / (rims.high - rims.low);
-        const bool plunges = pass_.scene_.disc->disc().inner < kPlungesBelow &&
-                             images.inverse_radius(turn, u) * kPlungesBelow > 1;
+        const Disc& disc = pass_.scene_.disc->disc();
+        const double stable = disc.orbits.last_stable();
+        const bool plunges = disc.inner < stable && images.inverse_radius(turn, u) * stable > 1;
         place = plunges ? kWherePlunging : kWithin;
       }
     }

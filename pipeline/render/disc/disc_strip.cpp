@@ -213,7 +213,8 @@ void DiscPass::Strip::note_place(const Crossings& crossings, int k, const Divisi
   // turns on while the time of emission changes.
   const double moved = length(division.turn_per,
                               sin_cos(turn).sine * crossings.azimuth_per[k] * division.part),
-               aged = disc_.slow_light ? angular_velocity(r) * at.time_slope * part : 0;
+               aged =
+                   disc_.slow_light ? disc_.orbits.angular_velocity(r) * at.time_slope * part : 0;
   samples_.place[count_ - 1] = {r, arc_tangent2(place.dot(pass_.quarter_), place.dot(pass_.node_)),
                                 time, std::abs(at.w_slope) * part * r * r, length(moved, aged)};
 }

@@ -24,6 +24,11 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
     return false;
   }
   if (way == s.find("r")) {
+    if (const auto* hole = std::get_if<ChargedHole>(&to.spacetime.kind())) {
+      const auto r = read_number(*way, s.range("r").above(hole->light_circle()));
+      if (r) body.trajectory = ChargedCircle{*hole, *r};
+      return r.has_value();
+    }
     const auto r = read_number(*way, s.range("r"));
     if (r) body.trajectory = CircularOrbit{*r};
     return r.has_value();
@@ -71,7 +76,7 @@ double semi_latus_rectum(const OrbitalElements& elements) {
   return std::pow(elements.period / (2 * std::numbers::pi), 2.0 / 3) * (1 - e) * (1 + e);
 }
 
-// Lays the orbit into space as it is seen along `line_of_sight`.  Sets the trajectory, whose tau is
+// Lays the orbit into space as it is seen on the way to the hole.  Sets the trajectory, whose tau is
 // 0 at the pericentre, its plane, and the azimuth of the pericentre.  The semilatus rectum is
 // p = a (1 - e^2), where a is Kepler's, a^3 = (period/2 pi)^2.  From pericentre to pericentre the
 // orbit therefore takes longer than the period by a part of about 3/a.  Throws std::domain_error
@@ -83,8 +88,13 @@ double semi_latus_rectum(const OrbitalElements& elements) {
 //     Z: r sin u sin i,
 // where u is its angle from the node.  These are the rotations by u, i and Omega, one after the
 // other.
-void set_orbit(const OrbitalElements& elements, const SkyDirection& line_of_sight, Body& body) {
-  body.trajectory = bound_by_shape(semi_latus_rectum(elements), elements.eccentricity);
+void set_orbit(const OrbitalElements& elements, const Show& to, Body& body) {
+  const SkyDirection& line_of_sight = to.hole_at;
+  const double p = semi_latus_rectum(elements), e = elements.eccentricity;
+  if (const auto* hole = std::get_if<ChargedHole>(&to.spacetime.kind()))
+    body.trajectory = ChargedOrbit::between(*hole, p / (1 + e), p / (1 - e));
+  else
+    body.trajectory = bound_by_shape(p, e);
   body.start = 0;
   // The tangents of the sky there are found like those at an observer's own place (placement.h).
   const M33d sky = place_tetrad({-line_of_sight.v}, std::numbers::pi / 2, 0);
@@ -113,7 +123,7 @@ void read_elements(const Item& item, const Show& to, std::optional<double> year,
   try {
     set_orbit({*period * years_m, *eccentricity, radians(*inclination), radians(*node),
                radians(*pericentre)},
-              to.hole_at, body);
+              to, body);
   } catch (const std::domain_error& error) {
     item.fail(std::string("has an orbit that this hole does not have: ") + error.what());
   }
@@ -216,8 +226,8 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
   const Item* list = show.find("bodies");
   if (list == nullptr) return bodies;
   if (to.spacetime.is_flat()) list->fail("need a black hole: give the show black_hole.mass_solar");
-  if (!to.spacetime.is_flat() && !to.spacetime.is<Schwarzschild>())
-    list->fail("need a hole without charge");
+  if (to.spacetime.is<Wormhole>())
+    list->fail("need a black hole: what moves in a wormhole is not drawn");
   if (!list->node.IsMap()) {
     list->fail("must be a map of names and bodies, e.g. {beacon: {r: 10}}, got " + kind_of(*list));
     return bodies;

@@ -151,7 +151,7 @@ bool read_pace(const Section& s, const Trajectory& trajectory, Timing& timing) {
       return false;
     case kFrozen:
       timing.tau_end = timing.tau_begin;
-      for (const char* key : {"to_r", "to_tau_m", "rate_m_per_s", "time_lapse", "orbits"})
+      for (const char* key : {"to_r", "to_l", "to_tau_m", "rate_m_per_s", "time_lapse", "orbits"})
         if (const Item* other = s.find(key)) {
           other->fail("is for time that passes; the pace is frozen");
           return false;

@@ -9,14 +9,16 @@ namespace domefall {
 namespace {
 
 // Reads the radii.  A disc ends at the last stable orbit, or at the horizon if its gas plunges in.
-void read_radii(const Section& s, const Spacetime& spacetime, Disc& disc) {
+void read_radii(const Section& s, Disc& disc) {
+  const double horizon = disc.orbits.horizon();
   if (disc.plunging)
-    disc.inner = s.given("inner_r", s.range("inner_r").at_least(spacetime.horizon()))
-                     .value_or(spacetime.horizon());
+    disc.inner = s.given("inner_r", s.range("inner_r").at_least(horizon)).value_or(horizon);
   else
-    disc.inner = s.given("inner_r", s.range("inner_r").because("gas inside the last stable orbit "
-                                                               "falls in, with plunging: true"))
-                     .value_or(spacetime.last_stable_orbit());
+    disc.inner = s.given("inner_r", s.range("inner_r")
+                                        .at_least(disc.orbits.last_stable())
+                                        .because("gas inside the last stable orbit falls in, with "
+                                                 "plunging: true"))
+                     .value_or(disc.orbits.last_stable());
   disc.outer = s.number("outer_r");
   if (disc.outer > disc.inner) return;
   if (const Item* outer = s.find("outer_r"))
@@ -27,7 +29,7 @@ void read_radii(const Section& s, const Spacetime& spacetime, Disc& disc) {
                             short_number(disc.outer), as_written(*inner)));
 }
 
-std::optional<PatternKind> read_pattern(const Item& item) {
+std::optional<PatternKind> read_pattern(const Item& item, const GasOrbits& orbits) {
   enum class Type { kTurbulence, kRings, kSpot, kNone };
   const Item* map = item.node.IsMap() ? &item : nullptr;
   const auto type = map ? peek(item, "type") : std::optional(item);
@@ -46,8 +48,9 @@ std::optional<PatternKind> read_pattern(const Item& item) {
     }
     case Type::kSpot: {
       const Section s(map, {"pattern", "spot"});
-      return SpotPattern{s.number("r"), s.angle("azimuth_deg"), s.number("size_r"),
-                         s.number("brightness")};
+      const double r =
+          s.given("r", s.range("r").at_least(orbits.last_stable())).value_or(SpotPattern().r);
+      return SpotPattern{r, s.angle("azimuth_deg"), s.number("size_r"), s.number("brightness")};
     }
     case Type::kNone:
       break;
@@ -72,17 +75,18 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   if (item == nullptr) return std::nullopt;
   const Section s(item, {"disc", "disc.light"});
   if (to.spacetime.is_flat()) item->fail("needs a black hole: give the show black_hole.mass_solar");
-  if (!to.spacetime.is_flat() && !to.spacetime.is<Schwarzschild>())
-    item->fail("needs a hole without charge");
+  if (to.spacetime.is<Wormhole>()) item->fail("needs a black hole: nothing circles a wormhole");
   Disc disc;
+  if (const auto* hole = std::get_if<ChargedHole>(&to.spacetime.kind()))
+    disc.orbits = GasOrbits(*hole);
   disc.plunging = s.flag("plunging");
-  read_radii(s, to.spacetime, disc);
+  read_radii(s, disc);
   const OrbitPlane plane = read_orbit_plane(s, to);
   disc.node = plane.node, disc.normal = plane.normal;
   disc.t_max_k = s.number("t_max_k");
   disc.luminance = s.number("luminance_cd_m2");
   disc.opacity = s.number("opacity");
-  if (const Item* pattern = s.find("pattern")) disc.pattern = read_pattern(*pattern);
+  if (const Item* pattern = s.find("pattern")) disc.pattern = read_pattern(*pattern, disc.orbits);
   disc.slow_light = s.flag("slow_light");
   return disc;
 }

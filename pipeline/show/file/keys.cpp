@@ -28,7 +28,8 @@ constexpr std::string_view kRows = R"(
 | `leg` | `inward` or `outward`: the first one at which r falls, or grows, there | the first of either |
 ## black_hole
 | `mass_solar` | 0 to 1e13 solar masses; 0 is flat space: from 1e-20 on, or 0 for no hole | [0] |
-| `charge` | 0 to 1: its electric charge in units of its mass, [below](#a-charged-hole) | [0] |
+| `charge` | 0 to 100: its electric charge in units of its mass, [below](#a-charged-hole); above 1 with | [0] |
+| `naked` | `true` or `false`: whether a charge above 1 is meant, which no horizon hides | [`false`] |
 | `at` | where the hole stands on the sky at the start: a [place on the sky](#places-on-the-sky) | [266.405, -28.936: the galactic centre] |
 | `heading_deg` | -360 to 360: in which direction orbits set out, from north through east | [90] |
 ## wormhole
@@ -122,9 +123,13 @@ constexpr std::string_view kRows = R"(
 | `orbits` | 0 to 1e6 revolutions: how many orbits in the segment | |
 ## infall in a wormhole
 | `from_l` | -1e9 to 1e9 radii of the throat: where the segment begins | required |
-| `to_l` | -1e9 to 1e9: where it ends, beyond the throat if it has the other sign | |
 | `speed` | above 0, below 1 speed of light = 1: of the free fall, everywhere | required |
 | `impact_parameter` | 0 to 1e9 radii of the throat: below 1 it passes the throat, above it turns where r is that | [0] |
+## thrown in a wormhole
+| `from_l` | -1e9 to 1e9 radii of the throat: where it is thrown | required |
+## end in a wormhole
+| `to_l` | -1e9 to 1e9: where it ends, beyond the throat if it has the other sign | |
+| `to_tau_m` | -1e15 to 1e15: the end by proper time | |
 ## path in a wormhole
 | `keyframes` | a list of places and times, with the keys below | required |
 ## keyframes in a wormhole
@@ -225,7 +230,7 @@ constexpr std::string_view kRows = R"(
 | `saturation` | 0 to 2: how far colours are from grey; 1 is the colour that the CIE's observer sees of a blackbody | [0.8], with `size` 1 |
 | `least_radius_deg` | above 0, at most 1: the angular radius that every star has at least, below | [0.005] |
 ## disc
-| `inner_r` | 6 to 1e6: where it ends inside, with `plunging: true` from 2 on | [6, the last stable orbit; with `plunging` 2, the horizon] |
+| `inner_r` | 6 to 1e6: where it ends inside, with `plunging: true` from 2 on; near a charge from its last stable orbit and its horizon on, which are less | [6, the last stable orbit; with `plunging` 2, the horizon] |
 | `outer_r` | above 2, at most 1e6: where it ends outside, above `inner_r` | [20] |
 | `inclination_deg` | 0 to 180: the angle between its plane and that of the orbits that set out as `heading_deg` says; with more than 90 it turns against them | [10] |
 | `node_deg` | -360 to 360: where its gas rises through the plane of the orbits to their north, as an azimuth from the observer's first place in the sense of the orbits | [90] |
@@ -247,12 +252,12 @@ constexpr std::string_view kRows = R"(
 | `contrast` | 0 to 1: with 1 the gaps go dark | [0.8] |
 | `inward_speed` | 0 to 0.5 parts of the speed of light: how fast they drift inwards | [0.02] |
 ## spot
-| `r` | 6 to 1e6: the radius of its orbit | [8] |
+| `r` | 6 to 1e6: the radius of its orbit; near a charge from the last stable one on | [8] |
 | `azimuth_deg` | -360 to 360: where it is at t = 0, in its orbit's sense from where the gas rises through the plane of the observer's orbits | [0] |
 | `size_r` | 0.01 to 10: the standard deviation of its brightness | [0.7] |
 | `brightness` | 1 to 1e4 times the gas beside it: of its middle | [5] |
 ## bodies
-| `r` | above 3, at most 1e9: radius of its circular orbit | one of the three |
+| `r` | above 3, at most 1e9: radius of its circular orbit; near a charge above its light circle | one of the three |
 | `trajectory` | how it moves otherwise: of type `static`, `circular`, `parabolic`, `hyperbolic`, `bound`, `infall` or `thrown`, by the keys of [timeline](#timeline) that say what it is and where it begins; none that says where a segment ends or how its clock runs | |
 | `elements` | its orbit as astronomers publish it, [below](#orbits-by-elements) | |
 | `begins_m` | -1e9 to 1e9: its v = t + r\*, counted from the show's start, when it is where `trajectory` begins; before that it does not shine. The observer's v is the `null_time` of `domefall states` | it begins with the show, and has come that way before |

@@ -1,41 +1,58 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "pipeline/show/file/orbit_families.h"
 #include "pipeline/show/file/orbit_reading.h"
 #include "pipeline/show/file/trajectory_section.h"
-#include "pipeline/spacetime/schwarzschild.h"
-#include "trajectories/bound_orbit.h"
-#include "trajectories/hyperbolic_orbit.h"
-#include "trajectories/infall.h"
 #include "trajectories/kruskal_crossing.h"
-#include "trajectories/parabolic_orbit.h"
 
 namespace domefall {
 namespace {
 
 constexpr double kFallEnd = 0.05;  // M; where falls end by default
 
-std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage, const Geodesic& orbit,
-                                     const Defaults& start, Placement placement = {}) {
-  if (const auto timing = read_timing(s, stage, orbit, start))
-    return TimedTrajectory{orbit, *timing, placement};
-  return std::nullopt;
+// Returns where falls end by default: next to the singularity, or before the inner horizon.
+std::optional<double> end_of_falls(const Stage& stage) {
+  const auto* charged = std::get_if<ChargedHole>(&stage.spacetime.kind());
+  if (!charged) return kFallEnd;
+  if (charged->is_naked()) return std::nullopt;
+  return std::max(kFallEnd, charged->inner_horizon() * 1.001);
 }
 
-std::optional<Geodesic> read_escape(const Section& s, const Item& by) {
+// Returns the speed, against what rests at r, of free fall from rest far away, or NaN where that does
+// not come.
+double speed_of_fall(const Stage& stage, double r) {
+  const auto* charged = std::get_if<ChargedHole>(&stage.spacetime.kind());
+  return charged ? charged->free_fall_speed(r) : Schwarzschild::free_fall_speed(r);
+}
+
+template <class Orbit>
+std::optional<TimedTrajectory> timed(const Section& s, const Stage& stage, const Orbit& orbit,
+                                     const Defaults& start, const Placement& placement) {
+  const auto timing = read_timing(s, stage, orbit, start);
+  if (!timing) return std::nullopt;
+  return TimedTrajectory{orbit, *timing, placement};
+}
+
+template <class Falls>
+auto read_escape(const Section& s, const Item& by, const Falls& falls)
+    -> std::optional<decltype(falls.parabola(0))> {
   if (const auto r = s.given("periastron"); r && &by == s.find("periastron"))
-    return made(s, by, [&] { return parabolic_by_periastron(*r); });
+    return made(s, by, [&] { return falls.parabola(*r); });
   if (const auto momentum = s.given("angular_momentum"))
-    return made(s, by, [&] { return parabolic_by_angular_momentum(*momentum); });
+    return made(s, by, [&] { return falls.parabola_by_momentum(*momentum); });
   if (const auto excess = s.given("excess"))
-    return made(s, by, [&] { return parabolic_by_excess(*excess); });
+    return made(s, by, [&] { return falls.parabola_by_excess(*excess); });
   return std::nullopt;
 }
 
 // Reads a hyperbolic orbit, which two quantities give.  An excess stands for the speed beside a
 // periastron, and for the impact parameter beside a speed.
-std::optional<Geodesic> read_scattering(const Section& s, const Item& by) {
+template <class Falls>
+auto read_scattering(const Section& s, const Item& by, const Falls& falls)
+    -> std::optional<decltype(falls.parabola(0))> {
   const Item* excess_item = s.find("excess");
   const auto excess = s.given("excess");
   const auto r = s.given("periastron");
@@ -43,39 +60,43 @@ std::optional<Geodesic> read_scattering(const Section& s, const Item& by) {
     if (const Item* v = s.find("v_inf"))
       return v->fail("excludes excess, which says how far it lies above the slowest possible");
     if (!excess) return std::nullopt;
-    return made(s, *excess_item, [&] { return hyperbolic_by_speed_excess(*r, *excess); });
+    return made(s, *excess_item, [&] { return falls.hyperbola_by_speed_excess(*r, *excess); });
   }
   const auto v = s.required("v_inf");
   if (!v) return std::nullopt;
   if (&by == excess_item) {
     if (!excess) return std::nullopt;
-    return made(s, by, [&] { return hyperbolic_by_impact_excess(*v, *excess); });
+    return made(s, by, [&] { return falls.hyperbola_by_impact_excess(*v, *excess); });
   }
-  if (r) return made(s, by, [&] { return hyperbolic_by_periastron(*v, *r); });
+  if (r) return made(s, by, [&] { return falls.hyperbola(*v, *r); });
   if (const auto b = s.given("impact_parameter"))
-    return made(s, by, [&] { return hyperbolic_by_impact_parameter(*v, *b); });
+    return made(s, by, [&] { return falls.hyperbola_by_impact(*v, *b); });
   return std::nullopt;
 }
 
-std::optional<Geodesic> read_ellipse(const Section& s) {
+template <class Falls>
+auto read_ellipse(const Section& s, const Falls& falls)
+    -> std::optional<decltype(falls.parabola(0))> {
   if (s.find("periastron") || s.find("apoastron")) {
     const auto low = s.required("periastron");
     const auto high = s.required("apoastron");
     if (!low || !high) return std::nullopt;
-    return made(s, *s.find("periastron"), [&] { return bound_by_turning_points(*low, *high); });
+    return made(s, *s.find("periastron"), [&] { return falls.ellipse(*low, *high); });
   }
   const auto e = s.required("eccentricity");
   if (const Item* excess = s.find("excess")) {
     const auto value = s.given("excess");
     if (!e || !value) return std::nullopt;
-    return made(s, *excess, [&] { return bound_by_excess(*e, *value); });
+    return made(s, *excess, [&] { return falls.ellipse_by_excess(*e, *value); });
   }
   const auto p = s.required("semilatus_rectum");
   if (!e || !p) return std::nullopt;
-  return made(s, *s.find("semilatus_rectum"), [&] { return bound_by_shape(*p, *e); });
+  return made(s, *s.find("semilatus_rectum"), [&] { return falls.ellipse_by_shape(*p, *e); });
 }
 
-std::optional<Geodesic> read_captured(const Section& s) {
+template <class Falls>
+auto read_captured(const Section& s, const Falls& falls)
+    -> std::optional<decltype(falls.parabola(0))> {
   const auto from_r = s.required("from_r");
   if (s.find("v_inf")) {
     if (const Item* momentum = s.find("angular_momentum"))
@@ -83,26 +104,27 @@ std::optional<Geodesic> read_captured(const Section& s) {
     const auto v = s.given("v_inf");
     const auto b = s.required("impact_parameter");
     if (!from_r || !v || !b) return std::nullopt;
-    return made(s, *s.find("impact_parameter"), [&] { return fall_with_speed(*v, *b, *from_r); });
+    return made(s, *s.find("impact_parameter"), [&] { return falls.fall_at(*v, *b, *from_r); });
   }
   const double momentum = s.number("angular_momentum");
   if (!from_r) return std::nullopt;
   const Item* blamed = s.find("angular_momentum") ? s.find("angular_momentum") : s.find("from_r");
-  return made(s, *blamed, [&] { return fall_from_infinity(momentum, *from_r); });
+  return made(s, *blamed, [&] { return falls.fall(momentum, *from_r); });
 }
 
-std::optional<Geodesic> read_dropped(const Section& s) {
-  const auto rest_r =
-      s.given("rest_r", s.range("rest_r").because("nothing rests at or inside the horizon"));
+template <class Falls>
+auto read_dropped(const Section& s, const Stage& stage, const Falls& falls)
+    -> std::optional<decltype(falls.parabola(0))> {
+  const auto rest_r = s.given("rest_r", resting_radii(stage));
   const double momentum = s.number("angular_momentum");
   if (!rest_r) return std::nullopt;
   const Item* blamed = s.find("angular_momentum") ? s.find("angular_momentum") : s.find("rest_r");
-  return made(s, *blamed, [&] { return fall_from_rest(*rest_r, momentum); });
+  return made(s, *blamed, [&] { return falls.drop(*rest_r, momentum); });
 }
 
-// Returns the placement of an orbit that sets out with this celerity, which may leave the plane of
-// the orbit before.  The plane turns by a right angle at most, since an orbit can run backward in
-// it.
+}  // namespace
+
+// The plane turns by a right angle at most, since an orbit can run backward in it.
 Placement placement_of(const V3d& celerity, bool mirrored) {
   Placement placement{mirrored};
   // The components of a celerity are those along R, Theta and Phi, and -Theta is north.
@@ -112,8 +134,6 @@ Placement placement_of(const V3d& celerity, bool mirrored) {
   placement.turn = placement.backward ? std::atan2(-north, -forward) : std::atan2(north, forward);
   return placement;
 }
-
-}  // namespace
 
 void fail_impossible(const Section& s, const Item& asked, const std::string& message) {
   const std::size_t space = message.find(' ');
@@ -132,8 +152,11 @@ std::optional<TimedTrajectory> read_parabolic(const Item& item, const Stage& sta
   const Item* by = s.one_of({"periastron", "angular_momentum", "excess"});
   if (!by)
     s.require("periastron", " (units of M); or give angular_momentum (units of M), or excess");
-  const auto orbit = by ? read_escape(s, *by) : std::nullopt;
-  return orbit ? timed(s, stage, *orbit, {}, {mirrored}) : std::nullopt;
+  if (!by) return std::nullopt;
+  return with_falls(stage.spacetime, [&](const auto& falls) -> std::optional<TimedTrajectory> {
+    const auto orbit = read_escape(s, *by, falls);
+    return orbit ? timed(s, stage, *orbit, {}, {mirrored}) : std::nullopt;
+  });
 }
 
 std::optional<TimedTrajectory> read_hyperbolic(const Item& item, const Stage& stage, Lookup&) {
@@ -142,8 +165,11 @@ std::optional<TimedTrajectory> read_hyperbolic(const Item& item, const Stage& st
   const Item* by = s.one_of({"periastron", "impact_parameter"});
   if (!by) by = s.find("excess");
   if (!by) s.require("periastron", " (units of M); or give impact_parameter (units of M)");
-  const auto orbit = by ? read_scattering(s, *by) : std::nullopt;
-  return orbit ? timed(s, stage, *orbit, {}, {mirrored}) : std::nullopt;
+  if (!by) return std::nullopt;
+  return with_falls(stage.spacetime, [&](const auto& falls) -> std::optional<TimedTrajectory> {
+    const auto orbit = read_scattering(s, *by, falls);
+    return orbit ? timed(s, stage, *orbit, {}, {mirrored}) : std::nullopt;
+  });
 }
 
 std::optional<TimedTrajectory> read_bound(const Item& item, const Stage& stage, Lookup&) {
@@ -154,12 +180,14 @@ std::optional<TimedTrajectory> read_bound(const Item& item, const Stage& stage, 
     for (const std::string_view turn : {"periastron", "apoastron"}) s.one_of({turn, shape});
   s.one_of({"semilatus_rectum", "excess"});
   const bool mirrored = is_in_region_three(s);
-  const auto orbit = read_ellipse(s);
-  if (!orbit) return std::nullopt;
-  // By default the orbit begins at the apoastron before the periastron of tau = 0.  Its proper time
-  // is half a radial period before that, by the symmetry of the orbit.
-  const double apoastron = -orbit->radial_period() / 2;
-  return timed(s, stage, *orbit, {apoastron, Leg::kInward, apoastron, {}, {}}, {mirrored});
+  return with_falls(stage.spacetime, [&](const auto& falls) -> std::optional<TimedTrajectory> {
+    const auto orbit = read_ellipse(s, falls);
+    if (!orbit) return std::nullopt;
+    // By default the orbit begins at the apoastron before the periastron of tau = 0.  Its proper
+    // time is half a radial period before that, by the symmetry of the orbit.
+    const double apoastron = -orbit->radial_period() / 2;
+    return timed(s, stage, *orbit, {apoastron, Leg::kInward, apoastron, {}, {}}, {mirrored});
+  });
 }
 
 std::optional<TimedTrajectory> read_curved_infall(const Item& item, const Stage& stage, Lookup&) {
@@ -168,13 +196,14 @@ std::optional<TimedTrajectory> read_curved_infall(const Item& item, const Stage&
   s.one_of({"rest_r", "impact_parameter"});
   const bool mirrored = is_in_region_three(s);
   const bool dropped = s.find("rest_r") != nullptr;
-  const auto orbit = dropped ? read_dropped(s) : read_captured(s);
-  if (!orbit) return std::nullopt;
   Defaults start;
   // A fall from rest begins where it rests, at tau = 0, and from_r is sought from there on.
   if (dropped) start.tau = start.after = 0;
-  start.to_r = kFallEnd;
-  return timed(s, stage, *orbit, start, {mirrored});
+  start.to_r = end_of_falls(stage);
+  return with_falls(stage.spacetime, [&](const auto& falls) -> std::optional<TimedTrajectory> {
+    const auto orbit = dropped ? read_dropped(s, stage, falls) : read_captured(s, falls);
+    return orbit ? timed(s, stage, *orbit, start, {mirrored}) : std::nullopt;
+  });
 }
 
 std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage, Lookup& lookup) {
@@ -189,19 +218,25 @@ std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage,
   if (!own) return std::nullopt;
   // A throw against the static observer is given as it is.  A throw against another one, whose
   // celerity against the rain is known, is brought to the rain.
-  const bool against_static = frame->region != Region::kII && frame->celerity.length2() > 0;
+  const bool against_static =
+      frame->region != Region::kII &&
+      frame->celerity == resting_celerity(stage.spacetime, frame->r, frame->tetrad);
   const V3d celerity = against_static ? V3d(*own) : V3d(celerity_against(frame->celerity, *own));
   // The plane of the orbit is that of R and the celerity, so only the length of the part across R
   // shapes the orbit.  Its direction turns the plane (placement_of).
   const double across = std::hypot(celerity.y, celerity.z);
-  const auto orbit = made(s, *s.find("from_r"), [&] {
-    return against_static ? thrown_outside(frame->r, celerity.x, across)
-                          : thrown_from_rain(frame->r, celerity.x, across);
+  return with_falls(stage.spacetime, [&](const auto& falls) -> std::optional<TimedTrajectory> {
+    const auto orbit = made(s, *s.find("from_r"), [&] {
+      return against_static ? falls.throw_from_rest(frame->r, celerity.x, across)
+                            : falls.throw_from_tetrad(frame->r, celerity.x, across);
+    });
+    if (!orbit) return std::nullopt;
+    const auto timing = read_end(s, stage, *orbit, 0);
+    if (!timing) return std::nullopt;
+    const bool turned = !against_static && falls.is_mirrored_throw(frame->r, celerity.x, across);
+    return TimedTrajectory{*orbit, *timing,
+                           placement_of(celerity, turned != is_mirrored(frame->tetrad))};
   });
-  if (!orbit) return std::nullopt;
-  const auto timing = read_end(s, stage, *orbit, 0);
-  if (!timing) return std::nullopt;
-  return TimedTrajectory{*orbit, *timing, placement_of(celerity, is_mirrored(frame->tetrad))};
 }
 
 // An energy that is left out is 1, with which it comes to rest at infinity.
@@ -230,15 +265,13 @@ std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage
 std::optional<TimedTrajectory> read_spiral(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "region", "spiral", "end", "rates", "pace"});
   const bool mirrored = is_in_region_three(s);
-  const auto from_r = s.required(
-      "from_r", s.range("from_r").because(
-                    "at the light circle an orbit needs the speed of light, below it more"));
+  const auto from_r = s.required("from_r", circling_radii(stage));
   const double turns = s.number("turns");
   if (!from_r) return std::nullopt;
-  const auto spiral = made(s, item, [&] { return Spiral(*from_r, turns); });
+  const auto spiral = made(s, item, [&] { return Spiral(*from_r, turns, stage.spacetime); });
   if (!spiral) return std::nullopt;
   Defaults end;
-  end.to_r = kFallEnd;
+  end.to_r = end_of_falls(stage);
   const auto timing = read_end(s, stage, *spiral, 0, end);
   if (!timing) return std::nullopt;
   return TimedTrajectory{*spiral, *timing, {mirrored}};
@@ -247,10 +280,8 @@ std::optional<TimedTrajectory> read_spiral(const Item& item, const Stage& stage,
 std::optional<TimedTrajectory> read_braked(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "region", "braked", "end", "rates", "pace"});
   const bool mirrored = is_in_region_three(s);
-  const auto radius = [&s](std::string_view key) {
-    return s.required(key, s.range(key).because("nothing rests at or inside the horizon"));
-  };
-  const auto from_r = radius("from_r"), stop_r = radius("stop_r");
+  const auto from_r = s.required("from_r", resting_radii(stage)),
+             stop_r = s.required("stop_r", resting_radii(stage));
   const auto given = s.given("speed");
   if (!from_r || !stop_r || (s.find("speed") && !given)) return std::nullopt;
   if (*stop_r >= *from_r) {
@@ -259,8 +290,13 @@ std::optional<TimedTrajectory> read_braked(const Item& item, const Stage& stage,
                                          short_number(*from_r), as_written(item_of_stop)));
   }
   // Without a speed it goes on where what falls from rest far away passes from_r.
-  const double speed = given.value_or(Schwarzschild::free_fall_speed(*from_r));
-  const auto flight = made(s, item, [&] { return BrakedFlight(*from_r, *stop_r, speed); });
+  const double speed = given.value_or(speed_of_fall(stage, *from_r));
+  if (std::isnan(speed)) {
+    s.require("speed", ", since no free fall from rest far away comes to from_r");
+    return std::nullopt;
+  }
+  const auto flight =
+      made(s, item, [&] { return BrakedFlight(*from_r, *stop_r, speed, stage.spacetime); });
   if (!flight) return std::nullopt;
   Defaults end;
   end.to_tau = flight->duration();

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -6,7 +8,6 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/show/file/trajectory_section.h"
 #include "pipeline/show/state_columns.h"
-#include "pipeline/spacetime/schwarzschild.h"
 
 namespace domefall {
 namespace {
@@ -15,30 +16,28 @@ constexpr std::array<Tetrad, 4> kTetrads{Tetrad::kRain, Tetrad::kOutgoing, Tetra
                                          Tetrad::kOutgoingToThree};
 
 // Phi is (1/r) d/dphi in the plane of the path.
-void set_rates(PathKey& key, const Celerity<ReferenceTetrad>& celerity, Tetrad tetrad) {
-  key.radial_rate = radial_rate(Schwarzschild{}, key.r, tetrad, celerity);
+void set_rates(const Spacetime& spacetime, PathKey& key, const Celerity<ReferenceTetrad>& celerity,
+               Tetrad tetrad) {
+  key.radial_rate = radial_rate(spacetime, key.r, tetrad, celerity);
   key.azimuth_rate = celerity.z / key.r;
 }
 
 void read_velocity_at(const Section& s, const Stage& stage, PathKey& key, Lookup& lookup) {
   if (!s.find("speed") && !s.find("lorentz_factor")) return;
-  if (!(key.r > kStaticInnermost)) {
+  if (!(stage.spacetime.lapse_squared(key.r) > 0)) {
     s.one_of({"speed", "lorentz_factor"})
-        ->fail("is measured by what is static, which exists outside r = 2 M only; leave it out");
+        ->fail(fmt::format("is measured by what is static, which exists outside r = {} M only; "
+                           "leave it out",
+                           short_number(stage.spacetime.horizon())));
     return;
   }
   GivenVelocity frame;
   frame.r = key.r;
-  frame.celerity = resting_celerity(key.r, frame.tetrad);
-  const auto own = read_own_celerity(s, stage, frame, lookup);
+  frame.celerity = resting_celerity(stage.spacetime, key.r, frame.tetrad);
+  const auto own = read_speed_on_path(s, stage, frame, lookup);
   if (!own) return;
-  // Rounding may leave a little of Theta in a direction that lies in the plane.
-  if (std::abs(own->y) > 1e-12 * own->length()) {
-    s.find("direction")->fail("leaves the plane of the path; give radial and phi only");
-    return;
-  }
-  // The R of the static observer is sqrt(1 - 2/r) d/dr.
-  key.radial_rate = own->x * std::sqrt(Schwarzschild::lapse_squared(key.r));
+  // The R of the static observer is sqrt(f) d/dr.
+  key.radial_rate = own->x * std::sqrt(stage.spacetime.lapse_squared(key.r));
   key.azimuth_rate = own->z / key.r;
 }
 
@@ -89,7 +88,7 @@ struct Table {
 };
 
 // Reads the table that `domefall states` writes, or any table with some of its columns.
-Table read_table(const std::filesystem::path& file) {
+Table read_table(const std::filesystem::path& file, const Spacetime& spacetime) {
   CsvFile csv(file, {kTimeColumn, kRadiusColumn});
   Table table;
   // Without celerities the path chooses the rates itself (accelerated_path.h).
@@ -110,13 +109,24 @@ Table read_table(const std::filesystem::path& file) {
     if (csv.has(kNormalColumn) && std::abs(csv.number(kNormalColumn)) > 1e-12)
       csv.fail("celerity_theta leaves the plane of the path; it must be 0");
     if (moving)
-      set_rates(key, {csv.number(kRadialColumn), 0, csv.number(kAzimuthalColumn)}, table.tetrad);
+      set_rates(spacetime, key, {csv.number(kRadialColumn), 0, csv.number(kAzimuthalColumn)},
+                table.tetrad);
     table.keys.push_back(key);
   }
   return table;
 }
 
 }  // namespace
+
+std::optional<Celerity<GivenFrame>> read_speed_on_path(const Section& s, const Stage& stage,
+                                                       const GivenVelocity& frame, Lookup& lookup) {
+  if (!s.find("speed") && !s.find("lorentz_factor")) return std::nullopt;
+  const auto own = read_own_celerity(s, stage, frame, lookup);
+  // Rounding may leave a little of Theta in a direction that lies in the plane.
+  if (own && std::abs(own->y) > 1e-12 * own->length())
+    return s.find("direction")->fail("leaves the plane of the path; give radial and phi only");
+  return own;
+}
 
 std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, Lookup& lookup) {
   const Section s(item, {"trajectory", "region", "path", "begin", "end", "rates", "pace"});
@@ -136,9 +146,9 @@ std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, L
       const auto name = read_text(*by);
       const auto file = name ? lookup.file(*by, *name) : std::nullopt;
       if (!file) return std::nullopt;
-      table = read_table(*file);
+      table = read_table(*file, stage.spacetime);
     }
-    const AcceleratedPath path(table.keys, table.tetrad);
+    const AcceleratedPath path(table.keys, table.tetrad, stage.spacetime);
     const Defaults whole{path.begin(), Leg::kInward, path.begin(), {}, path.end()};
     const auto timing = read_timing(s, stage, path, whole);
     if (!timing) return std::nullopt;

@@ -23,7 +23,11 @@ constexpr double kFewestSolarMasses = 1e-20;
 // Reads the spacetime.  With a mass that is misspelt or in error, the rest of the show is still
 // checked as one with a hole.
 Spacetime read_spacetime(const Section& s) {
-  if (!s.find("mass_solar") && !s.is_misspelt("mass_solar")) return FlatSpace{};
+  if (!s.find("mass_solar") && !s.is_misspelt("mass_solar")) {
+    for (const char* key : {"charge", "naked"})
+      if (const Item* given = s.find(key)) given->fail("is of a hole, which needs mass_solar");
+    return FlatSpace{};
+  }
   // A mass of 0 is flat space, so the range begins there, and the gap up to the lightest hole is
   // reported by itself.
   const auto mass = s.given("mass_solar");
@@ -33,6 +37,14 @@ Spacetime read_spacetime(const Section& s) {
                            short_number(kFewestSolarMasses), as_written(*s.find("mass_solar"))));
   if (!(mass.value_or(1) > 0)) return FlatSpace{};
   const double charge = s.number("charge");
+  const bool naked = s.flag("naked");
+  if (charge > 1 && !naked)
+    s.find("charge")->fail(fmt::format(
+        "must be at most 1, got {}: with more no horizon hides the singularity; if that "
+        "is meant, say naked: true",
+        as_written(*s.find("charge"))));
+  if (naked && !(charge > 1))
+    s.find("naked")->fail("is for a charge above 1; with less, a horizon hides the singularity");
   if (charge > 0) return ChargedHole(mass.value_or(1), charge);
   return Schwarzschild{mass.value_or(1)};
 }

@@ -30,18 +30,26 @@ void fail_unreached(const Item& item, const Trajectory& trajectory, std::optiona
                         leg ? fmt::format("on the {} leg ", leg_name(*leg)) : "", when, range));
 }
 
+// Returns the unit of lengths and proper times.
+const char* unit_in(const Stage& stage) {
+  return stage.spacetime.is<Wormhole>() ? "radii of the throat" : "M";
+}
+
 // Says what is wrong with an instant at which the trajectory is nearer or farther than shows may
 // be.
-std::optional<std::string> leaves_shows(const Trajectory& trajectory, const ProperTime& tau) {
+std::optional<std::string> leaves_shows(const Stage& stage, const Trajectory& trajectory,
+                                        const ProperTime& tau) {
   // The r of an instant that was sought for one of the bounds themselves comes back rounded.
   constexpr double kRounding = 1e-9;
   const double r = point_at(trajectory, tau).r;
   if (r >= kNearest * (1 - kRounding) && r <= kFarthest * (1 + kRounding)) return std::nullopt;
-  return fmt::format("leads to r = {} M; shows go from {} to {} M", short_number(r),
-                     short_number(kNearest), short_number(kFarthest));
+  return fmt::format("leads to r = {} {unit}; shows go from {} to {} {unit}", short_number(r),
+                     short_number(kNearest), short_number(kFarthest),
+                     fmt::arg("unit", unit_in(stage)));
 }
 
-std::optional<ProperTime> read_begin_time(const Section& s, const Trajectory& trajectory) {
+std::optional<ProperTime> read_begin_time(const Section& s, const Stage& stage,
+                                          const Trajectory& trajectory) {
   const auto tau = s.given("from_tau_m");
   if (!tau) return std::nullopt;
   const Item& item = *s.find("from_tau_m");
@@ -50,15 +58,15 @@ std::optional<ProperTime> read_begin_time(const Section& s, const Trajectory& tr
     return item.fail(fmt::format(
         "must lie within the trajectory, that is between {} and {} (units of M), got {}",
         short_number(birth(trajectory)), short_number(lifetime(trajectory)), as_written(item)));
-  if (const auto what = leaves_shows(trajectory, *tau)) return item.fail(*what);
+  if (const auto what = leaves_shows(stage, trajectory, *tau)) return item.fail(*what);
   return *tau;
 }
 
-std::optional<ProperTime> read_begin(const Section& s, const Trajectory& trajectory,
-                                     const Defaults& start) {
+std::optional<ProperTime> read_begin(const Section& s, const Stage& stage,
+                                     const Trajectory& trajectory, const Defaults& start) {
   const Item* given = s.one_of({"from_r", "from_tau_m"});
   const auto leg = read_leg(s, "from_leg", "from_r");
-  if (s.find("from_tau_m")) return read_begin_time(s, trajectory);
+  if (s.find("from_tau_m")) return read_begin_time(s, stage, trajectory);
   if (!given) {
     if (!start.tau) s.require("from_r", " (units of M): where it begins");
     return start.tau;
@@ -109,6 +117,20 @@ std::optional<ProperTime> read_passage(const Section& s, const Trajectory& traje
   return tau;
 }
 
+// Reads an l of a wormhole, which the trajectory must pass after its beginning.
+std::optional<ProperTime> read_passage_of_l(const Section& s, const Trajectory& trajectory,
+                                            const ProperTime& begin) {
+  constexpr double kAtOnce = 1e-12;  // of proper time: the beginning itself, rounded
+  const auto l = s.given("to_l");
+  if (!l) return std::nullopt;
+  const auto tau = time_at_l(trajectory, *l, begin + kAtOnce * (1 + std::abs(double(begin))));
+  if (!tau)
+    s.find("to_l")->fail(
+        "is not passed after the segment's beginning; a free fall comes through the throat with an "
+        "impact parameter below 1 only, and otherwise turns where r is that");
+  return tau;
+}
+
 std::optional<ProperTime> read_end_time(const Section& s, const Trajectory& trajectory,
                                         const ProperTime& begin) {
   const auto tau = s.given("to_tau_m");
@@ -133,9 +155,10 @@ std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Tra
   if (end < lifetime(trajectory)) return Timing{begin, end, Pace::kSteady, rate->begin, rate->end};
   const Item* given = s.one_of({"rate_m_per_s", "time_lapse"});
   const std::string what = fmt::format(
-      "lets {} M of proper time pass in the segment, but the trajectory ends {} M after its "
-      "beginning",
-      short_number(rate->span), short_number(double(lifetime(trajectory) - begin)));
+      "lets {} {unit} of proper time pass in the segment, but the trajectory ends {} {unit} after "
+      "its beginning",
+      short_number(rate->span), short_number(double(lifetime(trajectory) - begin)),
+      fmt::arg("unit", unit_in(stage)));
   if (given)
     given->fail(what + "; slow it down, shorten duration_s or give to_r");
   else
@@ -143,12 +166,13 @@ std::optional<Timing> read_rated(const Section& s, const Stage& stage, const Tra
   return std::nullopt;
 }
 
-bool check_end(const Section& s, const Trajectory& trajectory, const ProperTime& tau) {
-  const auto what = leaves_shows(trajectory, tau);
+bool check_end(const Section& s, const Stage& stage, const Trajectory& trajectory,
+               const ProperTime& tau) {
+  const auto what = leaves_shows(stage, trajectory, tau);
   if (!what) return true;
   const Item* given = nullptr;
   // The last of these keys that is given decided the end, since to_r and to_tau_m take precedence.
-  for (const char* key : {"time_lapse", "rate_m_per_s", "to_tau_m", "to_r"})
+  for (const char* key : {"time_lapse", "rate_m_per_s", "to_tau_m", "to_l", "to_r"})
     if (const Item* item = s.find(key)) given = item;
   if (given)
     given->fail(*what);
@@ -161,7 +185,7 @@ bool check_end(const Section& s, const Trajectory& trajectory, const ProperTime&
 
 std::optional<Timing> read_end(const Section& s, const Stage& stage, const Trajectory& trajectory,
                                const ProperTime& begin, const Defaults& defaults) {
-  const Item* given = find_end(s, {"to_r", "to_tau_m"});
+  const Item* given = find_end(s, {"to_r", "to_l", "to_tau_m"});
   Timing timing{begin, begin};
   const Item* pace = s.find("pace");
   if (pace && is_word(*pace, "frozen")) {
@@ -172,6 +196,9 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
   if (!s.find("to_r")) read_leg(s, "to_leg", "to_r");
   if (s.find("to_r")) {
     end = read_passage(s, trajectory, begin);
+    if (!end) return std::nullopt;
+  } else if (s.find("to_l")) {
+    end = read_passage_of_l(s, trajectory, begin);
     if (!end) return std::nullopt;
   } else if (s.find("to_tau_m")) {
     end = read_end_time(s, trajectory, begin);
@@ -190,14 +217,14 @@ std::optional<Timing> read_end(const Section& s, const Stage& stage, const Traje
     if (!rated) return std::nullopt;
     timing = *rated;
   }
-  if (!check_end(s, trajectory, timing.tau_end)) return std::nullopt;
+  if (!check_end(s, stage, trajectory, timing.tau_end)) return std::nullopt;
   if (!read_pace(s, trajectory, timing)) return std::nullopt;
   return timing;
 }
 
 std::optional<Timing> read_timing(const Section& s, const Stage& stage,
                                   const Trajectory& trajectory, const Defaults& defaults) {
-  const auto begin = read_begin(s, trajectory, defaults);
+  const auto begin = read_begin(s, stage, trajectory, defaults);
   return begin ? read_end(s, stage, trajectory, *begin, defaults) : std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 namespace domefall {
 namespace {
@@ -25,9 +26,10 @@ std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage,
         given->fail("needs a black hole; in flat space leave it out");
     return TimedTrajectory{StaticObserver{}, timing, {}};
   }
-  const auto r = s.required("r", kUnitsOfM.above(stage.spacetime.horizon())
-                                     .because("nothing holds still at or inside the horizon")
-                                     .at_most(kFarthest));
+  const auto r = read_resting_radius(s, stage, "r",
+                                     kUnitsOfM.above(stage.spacetime.horizon())
+                                         .because("nothing holds still at or inside the horizon")
+                                         .at_most(kFarthest));
   const bool mirrored = is_in_region_three(s);
   // The observer's clock runs in real time, unless a show in which other things move wants another
   // rate.
@@ -43,13 +45,18 @@ std::optional<TimedTrajectory> read_static(const Item& item, const Stage& stage,
 std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "region", "circular", "rates", "pace"});
   find_end(s, {"orbits"});
-  const auto r = s.required(
-      "r",
-      s.range("r").because("at the light circle an orbit needs the speed of light, below it more"));
+  const auto r = s.required("r", circling_radii(stage));
   const bool mirrored = is_in_region_three(s);
-  const auto rate = read_rate(s, stage, r ? std::optional(period({*r})) : std::nullopt);
+  const double turn =
+      2 * std::numbers::pi * r.value_or(1) * stage.spacetime.circling_time(r.value_or(1));
+  const auto rate = read_rate(s, stage, r ? std::optional(turn) : std::nullopt);
   if (!r || !rate) return std::nullopt;
-  return paced_circle(item, s, stage, CircularOrbit{*r}, period({*r}), *rate, mirrored);
+  // Between the two circles of light of a naked singularity.
+  if (!(turn > 0)) return s.find("r")->fail("is where an orbit needs more than the speed of light");
+  Trajectory circle = CircularOrbit{*r};
+  if (const auto* hole = std::get_if<ChargedHole>(&stage.spacetime.kind()))
+    circle = ChargedCircle{*hole, *r};
+  return paced_circle(item, s, stage, circle, turn, *rate, mirrored);
 }
 
 std::optional<Rate> read_fall_time(const Section& s, const Stage& stage, const RadialInfall& fall) {
@@ -116,7 +123,8 @@ std::optional<TimedTrajectory> read_velocity(const Item& item, const Stage& stag
 }
 
 std::optional<TimedTrajectory> read_continue(const Item& item, const Stage& stage, Lookup&) {
-  const Section s(item, {"trajectory", "end", "rates", "pace"});
+  const bool wormhole = stage.spacetime.is<Wormhole>();
+  const Section s(item, {"trajectory", wormhole ? "end in a wormhole" : "end", "rates", "pace"});
   if (!stage.before)
     return item.fail(
         "goes on with the trajectory of the segment before, but this is the first segment");
@@ -169,37 +177,67 @@ bool is_curved(const Item& item) {
 
 // Reads a fall, by the closed form of RadialInfall where its keys allow that.
 std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage, Lookup& lookup) {
-  return is_curved(item) ? read_curved_infall(item, stage, lookup)
-                         : read_radial_infall(item, stage, lookup);
+  return is_curved(item) || !stage.spacetime.is<Schwarzschild>()
+             ? read_curved_infall(item, stage, lookup)
+             : read_radial_infall(item, stage, lookup);
 }
 
 using Reader = std::optional<TimedTrajectory> (*)(const Item& item, const Stage& stage,
                                                   Lookup& lookup);
 
 // A Type holds the word for a kind of trajectory, whether flat space has that kind, and its readers
-// near a hole without charge, near a charge and in a wormhole, which are null where there is none.
+// near a hole and in a wormhole.  A null reader goes with the reason why there is no such motion, as
+// does a charge that has none.
 struct Type {
   std::string_view name;
   bool in_flat_space;
-  Reader plain, charged, wormhole;
+  Reader near_hole, in_wormhole;
+  std::string_view not_in_wormhole = {}, not_near_charge = {}, not_when_naked = {};
 };
+
+constexpr std::string_view kNothingPulls =
+    "nothing pulls in a wormhole: what moves freely there is of type infall or thrown";
+constexpr std::string_view kNoBodies = "bodies move near holes without charge only";
 
 // These are the types of trajectory that a show can name.  Those that a body can follow come first.
 constexpr std::array kTypes{
-    Type{"static", true, read_static, read_static, read_wormhole_rest},
-    Type{"circular", false, read_circular, read_charged_circle, read_wormhole_circle},
-    Type{"parabolic", false, read_parabolic, read_charged_parabola, nullptr},
-    Type{"hyperbolic", false, read_hyperbolic, read_charged_hyperbola, nullptr},
-    Type{"bound", false, read_bound, read_charged_ellipse, nullptr},
-    Type{"infall", false, read_infall, read_charged_fall, read_wormhole_fall},
-    Type{"thrown", false, read_thrown, nullptr, nullptr},
-    Type{"kruskal", false, read_kruskal, nullptr, nullptr},
-    Type{"spiral", false, read_spiral, nullptr, nullptr},
-    Type{"braked", false, read_braked, nullptr, nullptr},
-    Type{"path", false, read_path, nullptr, read_wormhole_path},
-    Type{"velocity", true, read_velocity, read_velocity, nullptr},
-    Type{"body", false, read_with_body, nullptr, nullptr},
-    Type{"continue", true, read_continue, read_continue, read_continue}};
+    Type{"static", true, read_static, read_wormhole_rest},
+    Type{"circular", false, read_circular, read_wormhole_circle},
+    Type{"parabolic", false, read_parabolic, nullptr, kNothingPulls},
+    Type{"hyperbolic", false, read_hyperbolic, nullptr, kNothingPulls},
+    Type{"bound", false, read_bound, nullptr, kNothingPulls},
+    Type{"infall", false, read_infall, read_wormhole_fall},
+    Type{"thrown", false, read_thrown, read_wormhole_throw},
+    Type{"kruskal", false, read_kruskal, nullptr,
+         "a wormhole has no horizon, and no singularity to come from",
+         "the singularity of a charge repels, and nothing comes out of it"},
+    Type{"spiral",
+         false,
+         read_spiral,
+         nullptr,
+         "nothing pulls in a wormhole: give a path, whose keyframes may go around and in",
+         {},
+         "nothing falls into a naked singularity; give a path"},
+    Type{"braked", false, read_braked, nullptr,
+         "a path whose last keyframe has speed: 0 comes to a stop in a wormhole"},
+    Type{"path", false, read_path, read_wormhole_path},
+    Type{"velocity", true, read_velocity, read_wormhole_velocity},
+    Type{"body", false, read_with_body, nullptr, kNoBodies, kNoBodies},
+    Type{"continue", true, read_continue, read_continue}};
+
+// Says why a type of motion does not exist there.  Nothing is said of one that does.
+std::string_view why_not(const Type& type, const Spacetime& spacetime) {
+  if (spacetime.is<Wormhole>()) return type.not_in_wormhole;
+  const auto* charged = std::get_if<ChargedHole>(&spacetime.kind());
+  if (charged && charged->is_naked() && !type.not_when_naked.empty()) return type.not_when_naked;
+  return charged ? type.not_near_charge : std::string_view();
+}
+
+// Where the horizons are one, or none, light and travellers from the other exterior come nowhere.
+bool has_region_one_alone(const Spacetime& spacetime) {
+  const auto* charged = std::get_if<ChargedHole>(&spacetime.kind());
+  return charged && charged->below_extremal <= 0;
+}
 
 constexpr std::array<std::string_view, kTypes.size()> kTypeNames = [] {
   std::array<std::string_view, kTypes.size()> names;
@@ -250,15 +288,14 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
   if (stage.spacetime.is_flat() && !kind.in_flat_space)
     return type->fail(
         fmt::format("'{}' needs a black hole: give the show black_hole.mass_solar", kind.name));
-  const bool wormhole = stage.spacetime.is<Wormhole>(), charged = stage.spacetime.is<ChargedHole>();
-  const Reader Type::*reader = wormhole ? &Type::wormhole : charged ? &Type::charged : &Type::plain;
-  if (kind.*reader != nullptr) return (kind.*reader)(item, stage, lookup);
-  std::vector<std::string_view> possible;
-  for (const Type& other : kTypes)
-    if (other.*reader != nullptr) possible.push_back(other.name);
-  type->fail(fmt::format("{} must be {}, got '{}'", wormhole ? "in a wormhole" : "near a charge",
-                         listed(possible), kind.name));
-  return std::nullopt;
+  if (const std::string_view why = why_not(kind, stage.spacetime); !why.empty())
+    return type->fail(fmt::format("of '{}' is not possible: {}", kind.name, why));
+  if (has_region_one_alone(stage.spacetime))
+    if (const auto region = peek(item, "region"); region && !is_word(*region, "I"))
+      return region->fail("must be I, which a hole with a charge of 1 or more has alone");
+  const Reader reader = stage.spacetime.is<Wormhole>() ? kind.in_wormhole : kind.near_hole;
+  const auto read = reader(item, stage, lookup);
+  return read && turns_within_shows(item, *read) ? read : std::nullopt;
 }
 
 }  // namespace domefall

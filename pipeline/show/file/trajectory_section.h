@@ -91,6 +91,19 @@ struct TimedTrajectory {
 // an engine.
 std::span<const std::string_view> trajectories_of_bodies();
 
+// Returns the r at which an observer can rest outside of a hole, and those of free circular orbits, as
+// far as one range tells.
+Range resting_radii(const Stage& stage);
+Range circling_radii(const Stage& stage);
+// Reads the r of an observer at rest, which inside an inner horizon is possible again.  `outside` has
+// those outside.
+std::optional<double> read_resting_radius(const Section& s, const Stage& stage,
+                                          std::string_view key, const Range& outside);
+
+// Reports a trajectory that turns nearer to the singularity than shows may be.  Returns true for
+// others.
+bool turns_within_shows(const Item& item, const TimedTrajectory& read);
+
 // Reads `region`, which is I or III, and says whether it is III.  Both have the same orbits.
 bool is_in_region_three(const Section& s);
 
@@ -109,17 +122,17 @@ std::optional<TimedTrajectory> read_curved_infall(const Item& item, const Stage&
 std::optional<TimedTrajectory> read_thrown(const Item& item, const Stage& stage, Lookup& lookup);
 std::optional<TimedTrajectory> read_kruskal(const Item& item, const Stage& stage, Lookup& lookup);
 
-// The same near a charged hole, and in a wormhole.
-std::optional<TimedTrajectory> read_charged_circle(const Item& item, const Stage& stage, Lookup&);
-std::optional<TimedTrajectory> read_charged_parabola(const Item& item, const Stage& stage, Lookup&);
-std::optional<TimedTrajectory> read_charged_hyperbola(const Item& item, const Stage& stage,
-                                                      Lookup&);
-std::optional<TimedTrajectory> read_charged_ellipse(const Item& item, const Stage& stage, Lookup&);
-std::optional<TimedTrajectory> read_charged_fall(const Item& item, const Stage& stage, Lookup&);
+// The same in a wormhole.
 std::optional<TimedTrajectory> read_wormhole_rest(const Item& item, const Stage& stage, Lookup&);
 std::optional<TimedTrajectory> read_wormhole_circle(const Item& item, const Stage& stage, Lookup&);
 std::optional<TimedTrajectory> read_wormhole_fall(const Item& item, const Stage& stage, Lookup&);
-std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_wormhole_throw(const Item& item, const Stage& stage,
+                                                   Lookup& lookup);
+std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage& stage,
+                                                  Lookup& lookup);
+std::optional<TimedTrajectory> read_wormhole_velocity(const Item& item, const Stage& stage,
+                                                      Lookup& lookup);
+
 // Returns a circle in its segment, with as many orbits as the rate makes.
 std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, const Stage& stage,
                                             const Trajectory& circle, double period,
@@ -144,6 +157,15 @@ std::optional<GivenVelocity> read_frame(const Section& s, const Stage& stage,
 // that observer sees its primary image, so that the place lies dead ahead.
 std::optional<Celerity<GivenFrame>> read_own_celerity(const Section& s, const Stage& stage,
                                                       const GivenVelocity& frame, Lookup& lookup);
+
+// Reads the same of a keyframe of a path, which lies in its plane.  Returns nothing where none is
+// given, or for an error.
+std::optional<Celerity<GivenFrame>> read_speed_on_path(const Section& s, const Stage& stage,
+                                                       const GivenVelocity& frame, Lookup& lookup);
+
+// Returns the placement of an orbit that sets out with this celerity, which may leave the plane of
+// the orbit before.
+Placement placement_of(const V3d& celerity, bool mirrored);
 
 // Reads a trajectory that holds such a velocity, or one that goes evenly in rapidity from one speed
 // to another within the segment.

@@ -69,6 +69,7 @@ V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVeloc
   ObserverState observer;
   observer.spacetime = stage.spacetime;
   observer.region = frame.region, observer.tetrad = frame.tetrad, observer.r = frame.r;
+  observer.l = frame.l;
   const auto lens = LensStore().lens(observer, {{false, false, false}});
   const V3d source = apply_transposed(stage.axes, place.v);
   return to_observer(frame.celerity, lens->primary_image(source)).direction;
@@ -82,8 +83,16 @@ std::optional<V3d> read_direction(const Item& item, const Stage& stage, const Gi
                                      {"backward", V3d(0, 0, -1)},
                                      {"north", V3d(0, -1, 0)},
                                      {"south", V3d(0, 1, 0)}}};
-  if (auto direction = meaning(item, kWords)) return direction;
-  if (item.node.IsMap() && !names_sky_place(item)) return read_components(item);
+  // Outward leads away from the hole, or from the throat of a wormhole on either side.
+  const auto outward = [&frame](V3d v) {
+    if (frame.l < 0) v.x = -v.x;
+    return v;
+  };
+  if (const auto direction = meaning(item, kWords)) return outward(*direction);
+  if (item.node.IsMap() && !names_sky_place(item)) {
+    const auto components = read_components(item);
+    return components ? std::optional(outward(*components)) : std::nullopt;
+  }
   const auto place = read_sky_place(item, lookup, names_of(kWords));
   if (!place) return std::nullopt;
   if (frame.region == Region::kIV)
@@ -146,7 +155,8 @@ Tetrad tetrad_of(Region region, Against against) {
   if (region == Region::kIV) return Tetrad::kOutgoing;
   if (region == Region::kII) return Tetrad::kRain;
   const bool out = against == Against::kOutgoing;
-  if (region == Region::kI) return out ? Tetrad::kOutgoing : Tetrad::kRain;
+  if (region == Region::kI || region == Region::kV)
+    return out ? Tetrad::kOutgoing : Tetrad::kRain;
   return out ? Tetrad::kOutgoingToThree : Tetrad::kRainOfThree;
 }
 
@@ -162,13 +172,27 @@ std::optional<GivenVelocity> read_frame(const Section& s, const Stage& stage,
         std::string("of ") + region_name(*region) +
         " has no observer of the kind that 'against' names: static is found in I and III, "
         "free_fall in I, II and III, outgoing in I, III and IV, constant_t in II and IV");
+  const auto* charged = std::get_if<ChargedHole>(&stage.spacetime.kind());
+  if (against == Against::kConstantT && charged && charged->below_extremal <= 0)
+    return s.find("against")->fail(
+        "of constant_t is what rests in t between two horizons, which a charge of 1 or more leaves "
+        "no room for");
   const double horizon = stage.spacetime.horizon();
-  const double nearest = std::max(kNearest, stage.spacetime.innermost() * (1 + 1e-6));
-  const auto r = s.required(radius_key, radii(against, region, horizon, nearest));
+  const double inner = stage.spacetime.inner_horizon();
+  // The regions that a show can name, and what rests in t, lie outside of an inner horizon.
+  const bool outside = against == Against::kConstantT || region;
+  const double nearest = outside ? std::max(kNearest, inner * (1 + 1e-6)) : kNearest;
+  const Range range = radii(against, region, horizon, nearest);
+  const auto r = against == Against::kStatic && !region
+                     ? read_resting_radius(s, stage, radius_key, range)
+                     : s.required(radius_key, range);
   if (!r) return std::nullopt;
+  if (against != Against::kStatic && std::isnan(stage.spacetime.fall_celerity(*r)))
+    return s.find(radius_key)
+        ->fail("is where no free fall from rest far away comes, since the charge turns it above");
   GivenVelocity frame;
   frame.r = *r;
-  frame.region = region_of(region, against, *r > horizon);
+  frame.region = *r < inner ? Region::kV : region_of(region, against, *r > horizon);
   frame.tetrad = tetrad_of(frame.region, against);
   // Observers at rest in r or in t move against the tetrad, and so may what falls or is thrown out.
   if (against == Against::kStatic || against == Against::kConstantT)

@@ -1,6 +1,5 @@
 // Reads the wormhole of a show, and trajectories in it.
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -14,6 +13,15 @@ namespace {
 
 const Wormhole& wormhole_of(const Stage& stage) {
   return std::get<Wormhole>(stage.spacetime.kind());
+}
+
+// Returns what rests at l, against which speeds are given.
+GivenVelocity rest_at(const Wormhole& wormhole, double l) {
+  GivenVelocity rest;
+  rest.region = Wormhole::side(l);
+  rest.r = wormhole.radius(l);
+  rest.l = l;
+  return rest;
 }
 
 }  // namespace
@@ -36,10 +44,8 @@ std::optional<TimedTrajectory> read_wormhole_circle(const Item& item, const Stag
   find_end(s, {"orbits"});
   const auto l = s.required("l"), speed = s.required("speed");
   if (!l || !speed) return std::nullopt;
-  if (!(*speed > 0)) {
-    s.find("speed")->fail("must be above 0; what keeps its place is of type static");
-    return std::nullopt;
-  }
+  if (!(*speed > 0))
+    return s.find("speed")->fail("must be above 0; what keeps its place is of type static");
   const Wormhole& wormhole = wormhole_of(stage);
   const double turn =
       2 * std::numbers::pi * wormhole.radius(*l) * std::sqrt((1 - *speed) * (1 + *speed)) / *speed;
@@ -49,57 +55,74 @@ std::optional<TimedTrajectory> read_wormhole_circle(const Item& item, const Stag
 }
 
 std::optional<TimedTrajectory> read_wormhole_fall(const Item& item, const Stage& stage, Lookup&) {
-  const Section s(item, {"trajectory", "infall in a wormhole", "rates", "pace"});
-  const Item* given = find_end(s, {"to_l"});
+  const Section s(item,
+                  {"trajectory", "infall in a wormhole", "end in a wormhole", "rates", "pace"});
   const auto from_l = s.required("from_l"), speed = s.required("speed");
   const double impact = s.number("impact_parameter");
-  const auto to_l = s.given("to_l");
-  if (!from_l || !speed || (s.find("to_l") && !to_l)) return std::nullopt;
-  const Wormhole& wormhole = wormhole_of(stage);
-  const auto fall =
-      made(s, item, [&] { return WormholeFall(wormhole, *from_l, *speed, impact, true); });
-  if (!fall) return std::nullopt;
-  Timing timing{0, proper_time_in(stage, stage.duration_s)};
-  if (to_l) {
-    const auto end = fall->time_at_l(*to_l, std::numeric_limits<double>::min());
-    if (!end) {
-      s.find("to_l")->fail(
-          "is where this fall does not come; with impact_parameter above 1 it turns "
-          "before the throat");
-      return std::nullopt;
-    }
-    timing.tau_end = *end;
-    if (!read_end_rates(s, stage, timing)) return std::nullopt;
-  } else if (given) {
-    const auto rate = read_rate(s, stage);
-    if (!rate) return std::nullopt;
-    timing = {0, rate->span, Pace::kSteady, rate->begin, rate->end};
-  }
-  if (!read_pace(s, *fall, timing)) return std::nullopt;
-  return TimedTrajectory{*fall, timing, {}};
+  if (!from_l || !speed) return std::nullopt;
+  const auto fall = made(
+      s, item, [&] { return WormholeFall(wormhole_of(stage), *from_l, *speed, impact, true); });
+  const auto timing = fall ? read_end(s, stage, *fall, 0) : std::nullopt;
+  if (!timing) return std::nullopt;
+  return TimedTrajectory{*fall, *timing, {}};
 }
 
-std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage& stage, Lookup&) {
-  const Section s(item, {"trajectory", "path in a wormhole", "rates", "pace"});
+std::optional<TimedTrajectory> read_wormhole_throw(const Item& item, const Stage& stage,
+                                                   Lookup& lookup) {
+  const Section s(
+      item, {"trajectory", "thrown in a wormhole", "speed", "end in a wormhole", "rates", "pace"});
+  const auto from_l = s.required("from_l");
+  if (!from_l) return std::nullopt;
+  const auto own = read_own_celerity(s, stage, rest_at(wormhole_of(stage), *from_l), lookup);
+  if (!own) return std::nullopt;
+  const auto fall = made(s, item, [&] {
+    return WormholeFall::thrown(wormhole_of(stage), *from_l, own->x, std::hypot(own->y, own->z));
+  });
+  const auto timing = fall ? read_end(s, stage, *fall, 0) : std::nullopt;
+  if (!timing) return std::nullopt;
+  return TimedTrajectory{*fall, *timing, placement_of(*own, false)};
+}
+
+std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage& stage,
+                                                  Lookup& lookup) {
+  const Section s(item, {"trajectory", "path in a wormhole", "end in a wormhole", "rates", "pace"});
   const Item* list = s.require("keyframes", ": a list of {at_m, l, azimuth_deg}");
   const auto items = list ? read_list(*list) : std::nullopt;
   if (!items) return std::nullopt;
   std::vector<WormholeKey> keys;
   for (const Item& one : *items) {
-    const Section key(one, {"keyframes in a wormhole"});
+    const Section key(one, {"keyframes in a wormhole", "speed"});
     const auto at = key.required("at_m"), l = key.required("l");
-    if (!at || !l) return std::nullopt;
+    if (!at || !l) continue;
     keys.push_back({*at, *l, key.angle("azimuth_deg")});
+    const auto own = read_speed_on_path(key, stage, rest_at(wormhole_of(stage), *l), lookup);
+    if (!own) continue;
+    keys.back().rate = own->x;
+    keys.back().azimuth_rate = own->z / wormhole_of(stage).radius(*l);
   }
+  if (keys.size() < items->size()) return std::nullopt;
   try {
     const WormholeFlight flight(wormhole_of(stage), keys);
-    Timing timing{flight.begin(), flight.end()};
-    if (!read_end_rates(s, stage, timing) || !read_pace(s, flight, timing)) return std::nullopt;
-    return TimedTrajectory{flight, timing, {}};
+    Defaults whole;
+    whole.to_tau = flight.end();
+    const auto timing = read_end(s, stage, flight, flight.begin(), whole);
+    if (!timing) return std::nullopt;
+    return TimedTrajectory{flight, *timing, {}};
   } catch (const std::domain_error& error) {
-    list->fail(std::string("cannot be flown: ") + error.what());
-    return std::nullopt;
+    return list->fail(std::string("cannot be flown: ") + error.what());
   }
+}
+
+std::optional<TimedTrajectory> read_wormhole_velocity(const Item& item, const Stage& stage,
+                                                      Lookup& lookup) {
+  const Section s(item, {"trajectory", "static in a wormhole", "speed", "pace"});
+  const auto l = s.required("l");
+  if (!l) return std::nullopt;
+  const auto trajectory =
+      read_velocity_trajectory(s, stage, rest_at(wormhole_of(stage), *l), lookup);
+  Timing timing{0, proper_time_in(stage, stage.duration_s)};
+  if (!trajectory || !read_pace(s, *trajectory, timing)) return std::nullopt;
+  return TimedTrajectory{*trajectory, timing, {}};
 }
 
 Wormhole read_wormhole(const Section& s) {

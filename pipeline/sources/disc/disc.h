@@ -7,7 +7,7 @@
 #include <optional>
 #include <variant>
 
-#include "pipeline/spacetime/schwarzschild.h"
+#include "pipeline/sources/disc/gas_orbits.h"
 #include "trajectories/directions.h"
 
 namespace domefall {
@@ -44,14 +44,12 @@ using PatternKind = std::variant<TurbulencePattern, RingPattern, SpotPattern>;
 
 // ---- the disc ----
 
-// Matter circles down to the last stable orbit and plunges below.  Discs are those of Schwarzschild
-// holes (disc_light.h).
-inline constexpr double kPlungesBelow = Schwarzschild::last_stable_orbit();
-
 struct Disc {
-  // There is matter between these radii (units of M).  kPlungesBelow <= inner < outer holds, or
-  // the horizon <= inner where the matter plunges.
-  double inner = kPlungesBelow, outer = 20;
+  // Matter circles down to the last stable orbit and plunges below.
+  GasOrbits orbits{};
+  // There is matter between these radii (units of M).  The last stable orbit <= inner < outer
+  // holds, or the horizon <= inner where the matter plunges.
+  double inner = 6, outer = 20;
   // The disc turns counter-clockwise about this axis, a direction of the celestial sphere, on which
   // the observer stands at column 0 of ObserverState::sky_from_tetrad.
   SkyDirection normal{V3d(0, 0, 1)};
@@ -71,10 +69,10 @@ struct Disc {
   bool slow_light = true;
 
   bool operator==(const Disc& other) const {
-    return inner == other.inner && outer == other.outer && normal.v == other.normal.v &&
-           node.v == other.node.v && pattern == other.pattern && slow_light == other.slow_light &&
-           t_max_k == other.t_max_k && luminance == other.luminance && opacity == other.opacity &&
-           plunging == other.plunging;
+    return orbits == other.orbits && inner == other.inner && outer == other.outer &&
+           normal.v == other.normal.v && node.v == other.node.v && pattern == other.pattern &&
+           slow_light == other.slow_light && t_max_k == other.t_max_k &&
+           luminance == other.luminance && opacity == other.opacity && plunging == other.plunging;
   }
 };
 

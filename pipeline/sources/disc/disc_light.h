@@ -12,44 +12,55 @@
 
 namespace domefall {
 
-// A PageThorneProfile says how hot a thin disc is at each radius, after Page & Thorne, ApJ 191, 499 (1974),
-// for a hole without spin (M = 1).  Luminet, A&A 75, 228 (1979), prints 1/sqrt 3 for sqrt 3/2
-// there.
+// A PageThorneProfile says how hot a thin disc is at each radius, after Page & Thorne, ApJ 191, 499
+// (1974), for a hole without spin (M = 1).  With E, L and Omega of circular orbits, outside the last
+// one that is stable, r_s,
 //
-//     F(r) ~ (B(r) + C) / ((r - 3) r^(5/2))                      r >= 6
-//     B(r) = sqrt r - sqrt 6 + (sqrt 3/2) ln [(sqrt r + sqrt 3)(sqrt 6 - sqrt 3) /
-//                                             ((sqrt r - sqrt 3)(sqrt 6 + sqrt 3))]
+//     F(r) ~ -Omega' (B(r) + C)/(r (E - Omega L)^2),   B = int (E - Omega L) dL.
+//
+// About a charge q, with y = sqrt(r - q^2), A = r_c - q^2 and D = q^2 (1 - 2/r_c), r_c the circle of
+// light, the integral is elementary:
+//
+//     dB/dy = 1 - 2 q^2/(y^2 + q^2) + D/(y^2 + D) - A/(y^2 - A).
+//
+// Without one it is Page and Thorne's sqrt r - sqrt 6 + (sqrt 3/2) ln[...].  (Luminet, A&A 75, 228
+// (1979), prints 1/sqrt 3 for sqrt 3/2.)
 //
 // C = 0 if nothing pulls at the disc's inner edge, the last stable orbit.  Where gas plunges from
-// there, magnetic fields pull with the part d of its angular momentum, and C = sqrt 6 d (Agol &
-// Krolik, ApJ 528, 161 (2000), by the same conservation laws).  Here d = 0.02, as simulations of
-// thin discs show (Shafee et al., ApJ 687, L25 (2008)).  Without a pull the gas would have cooled
-// when it plunges.  On its way it expands and is compressed without losing much of its heat
-// (Mummery & Balbus, MNRAS 521, 2439 (2023), for the pressure of radiation),
+// there, magnetic fields pull with the part d of its angular momentum, and C = d L (E - Omega L)
+// there (Agol & Krolik, ApJ 528, 161 (2000), by the same conservation laws).  Here d = 0.02, as
+// simulations of thin discs show (Shafee et al., ApJ 687, L25 (2008)).  Without a pull the gas would
+// have cooled when it plunges.  On its way it expands and is compressed without losing much of its
+// heat (Mummery & Balbus, MNRAS 521, 2439 (2023), for the pressure of radiation),
 //
-//     F(r) ~ F(6) x^(17/7) [1 + (x - 1)^(3/2)/e]^(-1/7)          2 <= r < 6,  x = 6/r
+//     F(r) ~ F(r_s) (r_s/r)^(17/7) [1 + u/e]^(-1/7)          r_+ <= r < r_s
 //
-// with e = 0.01, the speed at which it sets out over that of its fall.
+// with u the speed of the fall by GasOrbits::fall, (6/r - 1)^(3/2) without a charge, and e = 0.01
+// that with which it sets out.
 class PageThorneProfile {
  public:
-  explicit PageThorneProfile(bool plunging);
+  explicit PageThorneProfile(bool plunging, const GasOrbits& orbits = GasOrbits());
 
   // Returns the flux from a face of the disc, as the gas measures it, against that of the hottest
-  // ring outside the last stable orbit.  r is in units of M.  The flux is 0 below 6, or below 2
-  // where gas plunges.  Its relative error is a few epsilon, next to r = 6 too, where it vanishes
-  // like (r - 6)^2.
+  // ring outside the last stable orbit.  r is in units of M.  The flux is 0 below that orbit, or
+  // below the horizon where gas plunges.  Its relative error is a few epsilon, next to r_s too,
+  // where it vanishes like (r - r_s)^2.
   double flux(double r) const;
   // Returns the temperature likewise, flux^(1/4).
   double temperature(double r) const;
 
-  // Returns the radius of that ring (units of M), which is 9.55, or 6 where gas plunges.
+  // Returns the radius of that ring (units of M), which is 9.55 without a charge, or r_s where gas
+  // plunges.
   double hottest() const { return hottest_; }
 
  private:
+  double brought(double r) const;  // B
   double stable_flux(double r) const;
 
+  GasOrbits orbits_;
   bool plunging_;
-  double pull_;  // C
+  double a_, d_;  // A, D
+  double pull_;   // C
   double hottest_ = 0, greatest_ = 1;
 };
 
@@ -79,27 +90,23 @@ class DiscLight {
   Disc disc_;
   PageThorneProfile profile_;
   double scale_;  // from a blackbody's luminance to the show's
-  // This is log2 T without what is singular in it, at even steps of sqrt(6/r).
+  // This is log2 T without what is singular in it, at even steps of sqrt(r_s/r).
   std::vector<float> table_;
 };
 
 // The shift of a disc's light on its way to an observer follows from a DiscRay, which holds what
-// decides it of a view ray.  Gas on a circular orbit
-// has u^t = 1/sqrt(1 - 3/r) and turns with Omega = r^(-3/2) about the disc's axis n.  It sends
-// light of the ray with E, L at (M = 1)
+// decides it of a view ray.  Gas on a circular orbit has u^t and turns with Omega (gas_orbits.h)
+// about the disc's axis n.  It sends light of the ray with E, L at (M = 1)
 //
 //     1 + z = u^t (E - Omega L_n) / (k.u),      L_n = -L (r^ x e^).n
 //
 // times the frequency that the observer measures, k.u.  Here r^ is the observer's place and e^ the
-// tangent in which the ray sweeps its angle, followed back in time.  In the tetrad of radial free
-// fall k.u = 1.  For whoever moves against it the result is multiplied by the frequency there over
-// the one observed, AberratedLight::frequency_ratio of to_tetrad().
+// tangent in which the ray sweeps its angle, followed back in time.  In the reference tetrad k.u =
+// 1.  For whoever moves against it the result is multiplied by the frequency there over the one
+// observed, AberratedLight::frequency_ratio of to_tetrad().  Gas that plunges with E', L' and u^r
+// sends
 //
-// Inside the last stable orbit gas plunges with the energy E' = sqrt(8/9) and the angular momentum
-// L' = 2 sqrt 3 of that orbit (Cunningham, ApJ 202, 788 (1975)).  Then u^r = -(6/r - 1)^(3/2)/3,
-// and
-//
-//     1 + z = [(E' E - u^r k^r)/(1 - 2/r) - L' L_n/r^2] / (k.u).
+//     1 + z = [(E' E - u^r k^r)/f - L' L_n/r^2] / (k.u).
 struct DiscRay {
   double energy;            // E, > 0 wherever it meets a disc
   double angular_momentum;  // L >= 0
@@ -110,10 +117,10 @@ struct DiscRay {
 // tetrad's (R, Theta, Phi) or the celestial sphere's.
 DiscRay disc_ray(const RayInvariants& ray, const V3d& place, const V3d& tangent, const V3d& normal);
 
-// Returns the frequency that gas at r sends over the one that radial free fall at the observer's
-// place sees, for r > 2 (units of M) in region I.  The gas plunges where r < 6.  `outward` says
-// whether the light sets out to larger radii, which matters to plunging gas alone.  The result is
-// infinite where light sets out outward from the horizon.
-double disc_shift(const DiscRay& ray, double r, bool outward);
+// Returns the frequency that gas at r sends over the one that the reference tetrad sees at the
+// observer's place, for r above the horizon (units of M) in region I.  The gas plunges below the
+// last stable orbit.  `outward` says whether the light sets out to larger radii, which matters to
+// plunging gas alone.  The result is infinite where light sets out outward from the horizon.
+double disc_shift(const GasOrbits& orbits, const DiscRay& ray, double r, bool outward);
 
 }  // namespace domefall

@@ -7,7 +7,6 @@
 
 #include "pipeline/base/simd/dispatch.h"
 #include "pipeline/base/simd/vector_math.h"
-#include "pipeline/spacetime/schwarzschild.h"
 
 namespace domefall {
 namespace {
@@ -26,8 +25,9 @@ constexpr int kReach = 3;
 constexpr std::array<float, kSizes> kParts{0.45f, 0.33f, 0.22f};
 constexpr std::array<int, kSizes> kGrains{3, 4, 6};
 constexpr std::array<float, kSizes> kSpread{0.03f, 0.016f, 0.008f};
-// The shear draws out gas that plunges, so that from this radius inwards it is even.
-constexpr double kEvenBelow = 4;
+// The shear draws out gas that plunges, so that from this part of the last stable orbit inwards it
+// is even.
+constexpr double kEvenBelow = 2.0 / 3;
 constexpr std::size_t kPlacesAtOnce = 128;
 
 // This is the finaliser of MurmurHash3 (A. Appleby, public domain), in which each bit of the result
@@ -48,6 +48,7 @@ constexpr std::size_t kPlacesAtOnce = 128;
 struct PlaceBlock {
   std::array<float, kPlacesAtOnce> rows;              // ln r in rows of the first size
   std::array<float, kPlacesAtOnce> turns, turning;    // azimuth and angular velocity, in turns
+  std::array<float, kPlacesAtOnce> winding;           // -dOmega/dln(r), in turns
   std::array<float, kPlacesAtOnce> width, log_width;  // the footprint, in turns and in ln r
   std::array<double, kPlacesAtOnce> time;
   std::array<float, kPlacesAtOnce> kept, sum;
@@ -65,21 +66,23 @@ struct SizeOfGrains {
   std::uint32_t seed;
 };
 
-[[gnu::always_inline]] inline void read_places_loop(const PatternPlace* places, int count,
+[[gnu::always_inline]] inline void read_places_loop(const GasOrbits& orbits,
+                                                    const PatternPlace* places, int count,
                                                     PlaceBlock& b) {
+  const GasOrbits gas = orbits;
+  const double even_below = gas.last_stable() * kEvenBelow;
   for (int k = 0; k < count; ++k) {
     const PatternPlace& p = places[k];
-    const double low_r = p.r > Schwarzschild::horizon() ? p.r : Schwarzschild::horizon();
+    const double low_r = p.r > gas.horizon() ? p.r : gas.horizon();
     const double r = low_r < kOutermost ? low_r : kOutermost;
-    const double plunge = (r - kEvenBelow) / (kPlungesBelow - kEvenBelow);
+    const double plunge = (r - even_below) / (gas.last_stable() - even_below);
     const double low = plunge < 0 ? 0 : plunge, part = low > 1 ? 1 : low;
-    // These are the two laws of angular_velocity().
-    const double orbit = 1 / (r * __builtin_sqrt(r));
-    const double fall = (1 - Schwarzschild::horizon() / r) * kPlungeTurning / (r * r);
     b.rows[k] = static_cast<float>(logarithm(r) / kRowWidth);
     const double turns = p.azimuth / kTurn;
     b.turns[k] = static_cast<float>(turns - ((turns + kRounding) - kRounding));
-    b.turning[k] = static_cast<float>((r < kPlungesBelow ? fall : orbit) / kTurn);
+    const double orbit = gas.circling(r), fall = gas.plunging(r);
+    b.turning[k] = static_cast<float>((r < gas.last_stable() ? fall : orbit) / kTurn);
+    b.winding[k] = static_cast<float>(gas.shear(r)) * b.turning[k];
     b.width[k] = static_cast<float>(p.azimuth_width / kTurn);
     b.log_width[k] = static_cast<float>(p.r_width / r);
     b.time[k] = p.time;
@@ -125,9 +128,9 @@ template <int kSize>
   constexpr float kVariance = kSpread[kSize] * kSpread[kSize], kOfBox = 1.0f / 12;
   for (int k = 0; k < count; ++k) {
     const float age = (rows.passed[k] + static_cast<float>(older)) * rows.span[k];
-    // Omega falls as r^(-3/2), so across a footprint of the height h in ln r the gas has turned by
-    // angles that differ by 3/2 Omega h age.  A footprint that is high is therefore wide as well.
-    const float drawn = 1.5f * b.turning[k] * age * b.log_width[k];
+    // Omega falls outwards, so across a footprint of the height h in ln r the gas has turned by
+    // angles that differ by winding h age.  A footprint that is high is therefore wide as well.
+    const float drawn = b.winding[k] * age * b.log_width[k];
     const float variance = kVariance + kOfBox * (b.width[k] * b.width[k] + drawn * drawn);
     const float reach = 3.0f * __builtin_sqrtf(variance), most = reach < 0.5f ? reach : 0.5f;
     // A grain that would reach all around the ring fades into the mean.
@@ -188,13 +191,13 @@ double wrapped_gaussian(double angle, double sigma) {
 
 // Returns the light of the gas and the spot, with the spot spread over the footprint, over the mean
 // of the two around the ring.
-double spot_factor(const SpotPattern& spot, const PatternPlace& at) {
+double spot_factor(const SpotPattern& spot, const GasOrbits& orbits, const PatternPlace& at) {
   const double across = at.r_width / 2, along = at.azimuth_width / 2, own = spot.size / at.r;
   const double high = std::hypot(spot.size, across), wide = std::hypot(own, along);
   const double off = (at.r - spot.r) / high;
   const double mean = (spot.brightness - 1) * spot.size / high * exponential(-off * off / 2) * own /
                       std::sqrt(kTwoPi);
-  const double turns = angular_velocity(spot.r) / kTwoPi * at.time;
+  const double turns = orbits.angular_velocity(spot.r) / kTwoPi * at.time;
   const double angle = at.azimuth - spot.azimuth - (turns - std::floor(turns)) * kTwoPi;
   return (1 + mean * wrapped_gaussian(angle, wide)) / (1 + mean);
 }
@@ -210,12 +213,16 @@ double ring_factor(const RingPattern& rings, const PatternPlace& at) {
 
 }  // namespace
 
-Turbulence::Turbulence(const TurbulencePattern& pattern) : pattern_(pattern) {
+Turbulence::Turbulence(const TurbulencePattern& pattern, const GasOrbits& orbits)
+    : pattern_(pattern), orbits_(orbits) {
   for (int size = 0; size < kSizes; ++size) {
     const double width = std::ldexp(kRowWidth, -size);
     for (int row = 0; row * width < kOutermostLog + 2 * kRowWidth; ++row) {
       const double middle = (row + 0.5 - static_cast<double>(kRowsApart) * size) * width;
-      const double orbit = kTurn * exponential(1.5 * middle);
+      // Rows inside the last stable orbit go by its charge.
+      const double r = std::max(exponential(middle), orbits.last_stable());
+      const double orbit =
+          kTurn * exponential(1.5 * middle) / std::sqrt(1 - orbits.charge_squared() / r);
       const double span = pattern.orbits * orbit / kReach;
       spans_[static_cast<std::size_t>(size)].push_back(span);
       rates_[static_cast<std::size_t>(size)].push_back(1 / span);
@@ -232,7 +239,7 @@ void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> 
   PlaceBlock block;
   for (std::size_t at = 0; at < places.size(); at += kPlacesAtOnce) {
     const int count = static_cast<int>(std::min(kPlacesAtOnce, places.size() - at));
-    read_places(places.data() + at, count, block);
+    read_places(orbits_, places.data() + at, count, block);
     add_large_grains(size(0), count, block);
     add_middle_grains(size(1), count, block);
     add_small_grains(size(2), count, block);
@@ -241,14 +248,10 @@ void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> 
   }
 }
 
-double angular_velocity(double r) {
-  if (r >= kPlungesBelow) return 1 / (r * std::sqrt(r));
-  return (1 - Schwarzschild::horizon() / r) * kPlungeTurning / (r * r);
-}
-
-DiscPattern::DiscPattern(const PatternKind& kind) : kind_(kind) {
+DiscPattern::DiscPattern(const PatternKind& kind, const GasOrbits& orbits)
+    : kind_(kind), orbits_(orbits) {
   if (const auto* turbulence = std::get_if<TurbulencePattern>(&kind))
-    turbulence_.emplace(*turbulence);
+    turbulence_.emplace(*turbulence, orbits);
 }
 
 void DiscPattern::factors(std::span<const PatternPlace> places, std::span<float> out) const {
@@ -256,8 +259,8 @@ void DiscPattern::factors(std::span<const PatternPlace> places, std::span<float>
   const auto* rings = std::get_if<RingPattern>(&kind_);
   const auto* spot = std::get_if<SpotPattern>(&kind_);
   for (std::size_t k = 0; k < places.size(); ++k)
-    out[k] =
-        static_cast<float>(rings ? ring_factor(*rings, places[k]) : spot_factor(*spot, places[k]));
+    out[k] = static_cast<float>(rings ? ring_factor(*rings, places[k])
+                                      : spot_factor(*spot, orbits_, places[k]));
 }
 
 }  // namespace domefall

@@ -15,7 +15,7 @@ namespace domefall {
 
 // A PatternPlace is a place on the disc as a pixel sees it.
 struct PatternPlace {
-  double r;        // M, >= 2
+  double r;        // M, from the horizon on
   double azimuth;  // radians from the node, in the sense of the orbits
   double time;     // t at emission, M; |t| < 1e15
   // A pixel covers these spans from edge to edge.  One is of r (M).  The other is of the azimuth
@@ -33,7 +33,7 @@ struct PatternPlace {
 // and the footprint do, because a footprint makes a grain wider and keeps its light.
 class Turbulence {
  public:
-  explicit Turbulence(const TurbulencePattern& pattern);
+  Turbulence(const TurbulencePattern& pattern, const GasOrbits& orbits);
 
   // Finds the factor at each place, for r <= 1e6.
   void factors(std::span<const PatternPlace> places, std::span<float> out) const;
@@ -42,25 +42,21 @@ class Turbulence {
 
  private:
   TurbulencePattern pattern_;
+  GasOrbits orbits_;
   // This is the time (M) from one generation of a row to the next, for the rows of each size from
   // r = 1 on, and its inverse.
   std::array<std::vector<double>, kSizes> spans_, rates_;
 };
 
-// Returns the angular velocity of a disc's gas per M of t, for r >= 2 (M).  It is r^(-3/2) on
-// circular orbits, and that of the plunge inside the last stable one.
-double angular_velocity(double r);
-// The law of the plunge is (1 - 2/r) L'/E'/r^2 with this L'/E'.
-inline constexpr double kPlungeTurning = 3.674234614174767;  // sqrt 13.5
-
 class DiscPattern {
  public:
-  explicit DiscPattern(const PatternKind& kind);
+  explicit DiscPattern(const PatternKind& kind, const GasOrbits& orbits = GasOrbits());
 
   void factors(std::span<const PatternPlace> places, std::span<float> out) const;
 
  private:
   PatternKind kind_;
+  GasOrbits orbits_;
   std::optional<Turbulence> turbulence_;
 };
 

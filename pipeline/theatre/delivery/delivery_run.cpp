@@ -67,15 +67,6 @@ void link_or_copy_file(const fs::path& from, const fs::path& to) {
   }
 }
 
-// Has the names in a folder written to the disk.
-void flush_folder(const fs::path& folder) {
-  const Descriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (opened.number() < 0) throw_file_error(folder, errno);
-  // Some file systems cannot flush a folder, and say so by these errors.
-  if (fsync(opened.number()) != 0 && errno != EINVAL && errno != ENOTSUP)
-    throw_file_error(folder, errno);
-}
-
 class Deliverer {
  public:
   explicit Deliverer(const DeliveryRun& run)

@@ -23,10 +23,6 @@ namespace {
 using Arguments = std::vector<std::string>;
 using TextFile = std::unique_ptr<MemoryFile>;
 
-void append_to(Arguments& all, const Arguments& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 // Returns a path by which this process, and a child that keeps the descriptor, can open its file,
 // whatever name the file has, if any.
 std::string path_of_descriptor(int number) { return fmt::format("/proc/self/fd/{}", number); }
@@ -55,27 +51,27 @@ Arguments time_code(const MoviePlan& plan) {
 Arguments ffmpeg_arguments(const MoviePlan& plan, const TextFile& subtitles,
                            const TextFile& chapters, const Arguments& output) {
   Arguments all{"ffmpeg", "-nostdin", "-hide_banner", "-v", "error", "-y"};
-  append_to(all, input_options(plan.frames, plan.rate));
-  append_to(all, sound_inputs(plan.sound));
+  append(all, input_options(plan.frames, plan.rate));
+  append(all, sound_inputs(plan.sound));
   // The file of chapters is the last input.  Without one those of a sound file do not count either.
-  if (chapters) append_to(all, {"-f", "ffmetadata", "-i", "file:" + chapters->path()});
-  append_to(all, {"-map_chapters",
+  if (chapters) append(all, {"-f", "ffmetadata", "-i", "file:" + chapters->path()});
+  append(all, {"-map_chapters",
                   chapters ? fmt::to_string(1 + plan.sound.files.size()) : std::string("-1")});
-  append_to(all, sound_options(plan.sound, plan.first, plan.count, plan.rate));
+  append(all, sound_options(plan.sound, plan.first, plan.count, plan.rate));
   Arguments video = video_options(plan.preset, plan.frames, plan.rate, plan.tags,
                                   subtitles ? subtitles->path() : std::string());
   if (plan.levels) add_light_levels(video, *plan.levels);
   if (plan.mastering) add_mastering_display(video, *plan.mastering);
-  append_to(all, video);
-  if (!plan.sound.files.empty()) append_to(all, plan.preset.sound);
-  append_to(all, output);
+  append(all, video);
+  if (!plan.sound.files.empty()) append(all, plan.preset.sound);
+  append(all, output);
   return all;
 }
 
 Arguments movie_arguments(const MoviePlan& plan, const TextFile& subtitles,
                           const TextFile& chapters, int file) {
   Arguments output = time_code(plan);
-  append_to(output, {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
+  append(output, {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
                      std::string(format_of(plan.preset)), "file:" + path_of_descriptor(file)});
   return ffmpeg_arguments(plan, subtitles, chapters, output);
 }
@@ -258,10 +254,10 @@ void MovieFile::put_levels(const LightLevels& levels) const {
 void MovieFile::count_frames(const ChildOutcome& made) const {
   const bool is_told = !flat_;
   Arguments command{"ffprobe", "-v", "error", "-select_streams", "v:0"};
-  append_to(command, is_told
+  append(command, is_told
                          ? Arguments{"-show_entries", "stream=nb_frames"}
                          : Arguments{"-count_packets", "-show_entries", "stream=nb_read_packets"});
-  append_to(command, {"-of", "default=noprint_wrappers=1:nokey=1", "-i",
+  append(command, {"-of", "default=noprint_wrappers=1:nokey=1", "-i",
                       "file:" + path_of_descriptor(file_.descriptor())});
   ChildProgram probe(std::move(command), {file_.descriptor()}, kPackage);
   const ChildOutcome outcome = probe.wait();
@@ -310,8 +306,8 @@ std::string sound_for_browser(const Show& show) {
       ";[sound]" + to_stereo(sound) + "[stereo]";
   const MemoryFile made("the sound of the preview");
   Arguments all{"ffmpeg", "-nostdin", "-hide_banner", "-v", "error", "-y"};
-  append_to(all, sound_inputs(sound));
-  append_to(all, {"-filter_complex", filter, "-map", "[stereo]", "-c:a", "aac", "-b:a", "160k",
+  append(all, sound_inputs(sound));
+  append(all, {"-filter_complex", filter, "-map", "[stereo]", "-c:a", "aac", "-b:a", "160k",
                   "-movflags", "+faststart", "-f", "mp4", "file:" + made.path()});
   const ChildOutcome outcome = ChildProgram(all, {made.number()}, kPackage).wait();
   if (!outcome.good())

@@ -13,6 +13,7 @@
 #include "pipeline/base/disk_room.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/talk.h"
+#include "pipeline/image/frame_list.h"
 #include "pipeline/render/frame_grading.h"
 #include "pipeline/render/frames/graded_frames.h"
 #include "pipeline/render/frames/progress.h"
@@ -123,6 +124,9 @@ void add_measured(const RowPicture& frame, MovieFile& movie, LightLevels& levels
 
 MoviePlan plan_movie(const MoviePreset& preset, const Show& show, const std::vector<int>& frames,
                      Sound sound, const std::filesystem::path& out) {
+  if (frames.back() - frames.front() + 1 != std::ssize(frames))
+    throw InputError("--frames " + as_ranges(frames) +
+                     ": the frames of a movie follow one another; name one range, such as 0-299");
   const Projection& projection = show.projection;
   if (preset.whole_sphere && !std::holds_alternative<Equirectangular>(projection))
     throw InputError(

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/ratio.h"
@@ -86,10 +85,6 @@ std::vector<MoviePreset> make_presets() {
        "frames",
        "mkv", 8192, 4096, 2, "yuv420p10le", false, false, true, hevc(""), aac(), kLeastPredicted,
        kMostAac}};
-}
-
-void append(std::vector<std::string>& all, std::vector<std::string> more) {
-  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
 // These are the values that a player uses to turn codes into light.  Matrix 0 is RGB itself.

@@ -56,6 +56,11 @@ double least_bytes(const MoviePreset& preset, const MovieSize& movie, int frames
 // InputError if a size that need not change is not a multiple of what the preset asks for.
 MovieSize movie_size(const MoviePreset& preset, const MovieSize& frames);
 
+// Adds words to those of a command line.
+inline void append(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 // Returns ffmpeg's options from the frames, which it reads from its standard input as 16-bit RGB,
 // to the codec.  `subtitles` is a file in the ASS format in which each frame has a tenth of a
 // second (burn_in.h), or empty.

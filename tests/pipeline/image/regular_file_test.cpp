@@ -119,15 +119,5 @@ TEST(MemoryFile, HoldsWhatItAndOthersWrite) {
   EXPECT_EQ(file.contents(), text + "by name");
 }
 
-TEST(MemoryFile, IsReadFromItsBeginningAfterRewind) {
-  const MemoryFile file("a test's file");
-  file.append("script");
-  char first = 0;
-  EXPECT_EQ(::read(file.number(), &first, 1), 0);
-  file.rewind();
-  EXPECT_EQ(::read(file.number(), &first, 1), 1);
-  EXPECT_EQ(first, 's');
-}
-
 }  // namespace
 }  // namespace domefall

@@ -23,6 +23,7 @@ TEST_P(ExtremeCases, StaysWithinItsBound) {
 std::string case_name(const testing::TestParamInfo<ExtremeCase>& info) { return info.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(Rays, ExtremeCases, testing::ValuesIn(extreme_rays()), case_name);
+INSTANTIATE_TEST_SUITE_P(Swept, ExtremeCases, testing::ValuesIn(extreme_swept()), case_name);
 INSTANTIATE_TEST_SUITE_P(Frames, ExtremeCases, testing::ValuesIn(extreme_frames()), case_name);
 
 }  // namespace

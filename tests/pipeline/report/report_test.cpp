@@ -151,8 +151,8 @@ TEST(AccuracyPage, NamesTheMachineAndTheQuickestSoundWay) {
   for (const std::string& fact : {on.processor, on.compiler, on.date})
     EXPECT_NE(page.find(fact), std::string::npos) << fact;
   // The table is named, since the quicker method has lost a ray.
-  EXPECT_NE(page.find("| I, ordinary | table (2^3 to the octave), 300 ns | table (2^3 to the "
-                      "octave), 300 ns | exact, 1700 ns |"),
+  EXPECT_NE(page.find("| region I, ordinary | table (2^3 to the octave), 300 ns | table (2^3 to "
+                      "the octave), 300 ns | exact, 1700 ns |"),
             std::string::npos)
       << page;
   EXPECT_EQ(page.find("extreme"), std::string::npos);

@@ -73,6 +73,31 @@ TEST_F(Bodies, GoTheirOwnWays) {
   EXPECT_EQ(target->body->name, "falls");
 }
 
+TEST_F(Bodies, NearAChargeEndAtTheInnerHorizon) {
+  const Show show = with(
+      "begins_year: 2010\nbodies:\n  circles: {r: 2.7}\n"
+      "  falls: {trajectory: {type: infall, rest_r: 9}}\n  rests: {trajectory: {type: static, r: "
+      "5}}\n"
+      "  orbits: {elements: " +
+          kOrbit + "}\n",
+      "{type: static, r: 9}", "{mass_solar: 4e6, charge: 0.9}");
+  ASSERT_EQ(show.bodies.size(), 4u);
+  const ChargedHole hole = std::get<ChargedHole>(show.spacetime.kind());
+  EXPECT_EQ(std::get<ChargedCircle>(show.bodies[0].trajectory).r, 2.7);
+  const BodyMotion falls = motion_of(show.spacetime, show.bodies[1], M33d());
+  EXPECT_NEAR(falls.at(1e-6).r, 9, 1e-9);
+  EXPECT_NEAR(falls.at(falls.end * (1 - 1e-9)).r, hole.inner_horizon(), 1e-6);
+  EXPECT_GT(falls.at(falls.end * (1 - 1e-9)).r, hole.inner_horizon());
+  // It has risen from the past horizon, and from a universe before.
+  EXPECT_NEAR(falls.at(-1e-3).r, 9, 1e-3);
+  EXPECT_EQ(falls.at(-falls.end * 1.01).r, 0);
+  EXPECT_EQ(motion_of(show.spacetime, show.bodies[2], M33d()).at(77).r, 5);
+  // By Kepler's third law it has a semimajor axis of (16 years/2 pi)^(2/3).
+  const double years = 16 * 31557600 / show.spacetime.seconds_per_m();
+  const double axis = std::pow(years / (2 * std::numbers::pi), 2.0 / 3);
+  EXPECT_NEAR(motion_of(show.spacetime, show.bodies[3], M33d()).at(0).r, axis * 0.1, 1e-6 * axis);
+}
+
 // S2 by the GRAVITY Collaboration (2019, A&A 625, L10): it came towards its pericentre of May 2018
 // receding at 4000 km/s, and went from it approaching at 1900 km/s.
 TEST_F(Bodies, HaveTheOrbitsThatAstronomersPublish) {
@@ -147,6 +172,13 @@ TEST_F(BodyMistakes, AreToldWithTheirPlace) {
       complaint("bodies: {a: {r: 9}}\ntimeline: [{duration_s: 2, trajectory: {type: static}}]\n")
           .find("need a black hole"),
       std::string::npos);
+  expect_complaints(
+      {{"black_hole: {mass_solar: 1, charge: 1}\n"
+        "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}}]\nbodies: {a: {r: 2}}\n",
+        "3:17: bodies.a.r must exceed 2 (units of M), got 2"},
+       {"wormhole: {radius_km: 1}\ntimeline: [{duration_s: 2, trajectory: {type: static, l: 9}}]\n"
+        "bodies: {a: {r: 9}}\n",
+        "3:9: bodies need a black hole: what moves in a wormhole is not drawn"}});
   EXPECT_NE(complaint(kShow + "bodies: {a: {r: 9, size: 3}}\n").find("unknown key"),
             std::string::npos);
 }

@@ -24,6 +24,19 @@ TEST_F(DiscKeys, AShowHasADiscOnlyIfItSaysSo) {
   EXPECT_FALSE(disc.plunging);
 }
 
+TEST_F(DiscKeys, NearAChargeADiscReachesFurtherIn) {
+  const auto near_charge = [this](const std::string& disc) {
+    return with(disc, "{type: static, r: 9}", "{mass_solar: 4e6, charge: 1}").disc.value();
+  };
+  const Disc disc = near_charge("disc: {}\n");
+  EXPECT_EQ(disc.inner, 4);
+  EXPECT_EQ(disc.orbits.last_stable(), 4);
+  EXPECT_EQ(disc.orbits.charge_squared(), 1);
+  EXPECT_EQ(near_charge("disc: {plunging: true}\n").inner, 1);
+  const Disc spotted = near_charge("disc: {pattern: {type: spot, r: 4.5}}\n");
+  EXPECT_EQ(std::get<SpotPattern>(spotted.pattern.value()).r, 4.5);
+}
+
 TEST_F(DiscKeys, EveryKeyIsTaken) {
   const Disc disc =
       with("disc: {inner_r: 7, outer_r: 30, t_max_k: 5e6, luminance_cd_m2: 0.02, opacity: 0.25}\n")
@@ -101,6 +114,22 @@ TEST_F(DiscKeys, TheNodeLiesInBothPlanes) {
   // The gas there moves on and to the north, against Theta.
   const V3d motion = show.disc->normal.v.cross(show.disc->node.v);
   EXPECT_NEAR(motion.dot(column(axes, 1)), -0.5, 1e-12);
+}
+
+TEST_F(DiscMistakes, NearAChargeAreNamedWithItsBounds) {
+  const std::string timeline = "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}}]\n";
+  const std::string charge = "black_hole: {mass_solar: 1, charge: 1}\n" + timeline;
+  expect_complaints(
+      {{charge + "disc: {inner_r: 3}\n",
+        "3:17: disc.inner_r must be at least 4 (units of M), got 3: gas inside the last stable "
+        "orbit falls in, with plunging: true"},
+       {charge + "disc: {plunging: true, inner_r: 0.5}\n",
+        "3:33: disc.inner_r must be at least 1 (units of M), got 0.5"},
+       {charge + "disc: {pattern: {type: spot, r: 3}}\n",
+        "3:33: disc.pattern.r must be at least 4 (units of M), got 3"},
+       {"wormhole: {radius_km: 1}\ntimeline: [{duration_s: 2, trajectory: {type: static, l: 9}}]\n"
+        "disc: {}\n",
+        "3:7: disc needs a black hole: nothing circles a wormhole"}});
 }
 
 TEST_F(DiscMistakes, AreNamedWithTheirBounds) {

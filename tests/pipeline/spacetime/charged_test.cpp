@@ -186,5 +186,20 @@ TEST(ChargedHole, HasTheCriticalRaysOfAHundredDigits) {
   });
 }
 
+// The closed form in doubles has lost digits where the horizons are nearly one.
+TEST(PixelTortoise, IsRStarOutside) {
+  for (const long double q : {1e-6L, 0.5L, 0.95L, 1 - 1e-9L, 1.0L}) {
+    const ChargedHole hole(1, q);
+    const PixelTortoise pixels(hole);
+    for (const double above : {1e-6, 0.1, 1.0, 7.0, 1e5}) {
+      const double r = hole.horizon() + above, truth = hole.tortoise(r);
+      EXPECT_NEAR(pixels.at(r, [](double x) { return std::log(x); }), truth,
+                  1e-8 + 1e-9 * std::abs(truth))
+          << static_cast<double>(q) << " " << r;
+    }
+    EXPECT_LT(pixels.at(hole.horizon(), [](double x) { return std::log(x); }), -10);
+  }
+}
+
 }  // namespace
 }  // namespace domefall

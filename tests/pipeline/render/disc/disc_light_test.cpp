@@ -116,7 +116,7 @@ class ExactDiscLight {
       if (r < 2) continue;
       const bool outward = exact_position(ray, psi + 1e-6).value_or(1e300) < r;
       sum += left * view_.disc.opacity *
-             luminance(light_.light(r, received / disc_shift(disc, r, outward)));
+             luminance(light_.light(r, received / disc_shift(GasOrbits(), disc, r, outward)));
       left *= 1 - view_.disc.opacity;
     }
     return sum * std::sin(delta) / (received * received);

@@ -16,7 +16,7 @@ Vector3 array_of(const V3d& v) { return {v.x, v.y, v.z}; }
 // The disc as one direction of view shows it, without the tables that frames are made from.
 class FollowedDisc {
  public:
-  FollowedDisc(const Show& show, const FrameState& state)
+  FollowedDisc(const Show& show, const FrameState& state, double charge)
       : state_(state), disc_(*show.disc), scale_(disc_.luminance / luminance_of(disc_.t_max_k)) {
     const ObserverState& o = state.observer;
     view_ = {o.r,
@@ -25,7 +25,8 @@ class FollowedDisc {
              array_of(apply_transposed(o.sky_from_tetrad, disc_.normal.v)),
              disc_.inner,
              disc_.outer,
-             disc_.plunging};
+             disc_.plunging,
+             charge};
   }
 
   struct Sight {
@@ -91,20 +92,26 @@ std::vector<DiscView> twenty_views() {
 // How near to each other these are, whatever is 0.
 double ratio(double a, double b) { return std::min(a, b) / std::max({a, b, 1e-300}); }
 
-TEST(DiscPixels, AreThoseOfTheRaysInTwentyViews) {
-  std::mt19937 random(3);
-  const std::vector<DiscView> views = twenty_views();
-  ASSERT_EQ(views.size(), 20u);
-  int compared = 0, from_beneath = 0, dark = 0;
+struct Compared {
+  int pixels = 0, from_beneath = 0, dark = 0;
+};
+
+// Compares pixels of views with the rays that end in them.  The pictures are half as wide again as
+// high.
+Compared compare_with_rays(const std::vector<DiscView>& views, unsigned seed, int height) {
+  std::mt19937 random(seed);
+  Compared compared;
   for (std::size_t v = 0; v < views.size(); ++v) {
     const double fov = views[v].at.r > 30 ? 44 : 140;
-    const Show show = disc_show(views[v], Stereographic{120, 80, fov * kDegree});
+    const Show show = disc_show(views[v], Stereographic{height * 3 / 2, height, fov * kDegree});
     const FrameState state = frame_state(show, 0);
-    const FollowedDisc followed(show, state);
+    const FollowedDisc followed(show, state, views[v].charge);
     const FloatImage frame = render_floats(show);
     const double scale = exposure_scale(state.settings);
     for (int k = 0; k < tries(24, 6); ++k) {
-      const int column = static_cast<int>(random() % 120), row = static_cast<int>(random() % 80);
+      const auto rows = static_cast<unsigned>(height);
+      const int column = static_cast<int>(random() % (rows * 3 / 2)),
+                row = static_cast<int>(random() % rows);
       const PixelPosition middle{column + 1.0, row + 1.0};
       const FollowedDisc::Sight centre = followed.at(middle);
       double corners = 0, evenness = 1;
@@ -124,20 +131,53 @@ TEST(DiscPixels, AreThoseOfTheRaysInTwentyViews) {
       if (centre.orders == 0) {
         // What is left may be a ring that no corner meets.
         EXPECT_LT(seen, 0.3 * show.disc->luminance);
-        dark += seen == 0;
+        compared.dark += seen == 0;
         continue;
       }
       // Simpson's rule in two dimensions.  A pixel also sees a little of its neighbours, and these
       // pixels are more than a degree wide.
       const double mean = (2 * centre.nits + corners) / 3;
       EXPECT_NEAR(seen / mean, 1, 0.02 + 0.1 * (1 - evenness)) << centre.nits;
-      ++compared;
-      from_beneath += centre.orders > 1;
+      ++compared.pixels;
+      compared.from_beneath += centre.orders > 1;
     }
   }
-  EXPECT_GT(compared, tries(100, 20));
-  EXPECT_GT(from_beneath, tries(3, -1));
-  EXPECT_GT(dark, tries(40, 8));
+  return compared;
+}
+
+TEST(DiscPixels, AreThoseOfTheRaysInTwentyViews) {
+  const std::vector<DiscView> views = twenty_views();
+  ASSERT_EQ(views.size(), 20u);
+  const Compared compared = compare_with_rays(views, 3, 80);
+  EXPECT_GT(compared.pixels, tries(100, 20));
+  EXPECT_GT(compared.from_beneath, tries(3, -1));
+  EXPECT_GT(compared.dark, tries(40, 8));
+}
+
+// From afar and near, amid the gas, next to the circle of light, beside the horizon and behind it.
+TEST(DiscPixels, AreThoseOfTheRaysNearACharge) {
+  constexpr Tetrad kRain = Tetrad::kRain;
+  std::mt19937 random(5);
+  std::vector<DiscView> views;
+  for (const double charge : {0.5, 0.95, 1.0}) {
+    const ChargedHole hole(1, charge);
+    const double edge = hole.last_stable_orbit(), end = hole.horizon();
+    const Disc stable = disc_from(edge, 20, 0.7), falling = disc_from(end * 1.2, 12, 0.7, true);
+    const auto add = [&](double r, const Celerity<ReferenceTetrad>& celerity, const V3d& normal,
+                         const Disc& disc) {
+      views.push_back(
+          {{r > end ? Region::kI : Region::kII, kRain, r, celerity}, normal, disc, charge});
+    };
+    add(60, celerity_of_rest(60, charge), normal_seen_from(10), stable);
+    add(8, celerity_of_rest(8, charge), normal_seen_from(20), stable);
+    add(12, {0.4, -0.2, 0.5}, V3d(0.3, -1, 0), stable);
+    add(hole.light_circle(), {0, 0, 0}, random_direction(random), falling);
+    add(end * 1.01, {0, 0, 0}, random_direction(random), falling);
+    if (charge < 1) add(end * 0.9, {0, 0, 0}, random_direction(random), falling);
+  }
+  const Compared compared = compare_with_rays(views, 4, 160);
+  EXPECT_GT(compared.pixels, tries(60, 12));
+  EXPECT_GT(compared.dark, tries(20, 4));
 }
 
 // Who is the same observer sees the same, whichever frame the motion is given against.

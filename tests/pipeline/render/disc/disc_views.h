@@ -14,6 +14,7 @@ struct DiscView {
   GivenVelocity at;
   V3d normal{0, -1, 0};
   Disc disc{};
+  double charge = 0;
 };
 
 // The normal of a disc above whose plane the observer stands by so many degrees.
@@ -21,8 +22,9 @@ inline V3d normal_seen_from(double degrees) {
   return {std::sin(degrees * kDegree), -std::cos(degrees * kDegree), 0};
 }
 
-// How fast one who rests at r > 2 moves against radial free fall there.
-inline Celerity<ReferenceTetrad> celerity_of_rest(double r) {
+// How fast one who rests at r > 2 moves against radial free fall there, or near a charge against T.
+inline Celerity<ReferenceTetrad> celerity_of_rest(double r, double charge = 0) {
+  if (charge > 0) return {ChargedHole(1, charge).resting_celerity(r), 0, 0};
   const double s = std::sqrt(2 / r);
   return {s / std::sqrt(1 - s * s), 0, 0};
 }
@@ -32,6 +34,11 @@ inline Show disc_show(const DiscView& view, const Projection& projection) {
   Show show = show_of(view.at, projection);
   show.spacetime = Schwarzschild{4.3e6};
   show.disc = view.disc;
+  if (view.charge > 0) {
+    const ChargedHole hole(4.3e6, view.charge);
+    show.spacetime = hole;
+    show.disc->orbits = GasOrbits(hole);
+  }
   show.disc->normal = {
       apply(frame_state(show, 0).observer.sky_from_tetrad, view.normal.normalized())};
   return show;

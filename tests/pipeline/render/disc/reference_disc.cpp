@@ -5,6 +5,7 @@
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace domefall {
@@ -15,6 +16,9 @@ namespace odeint = boost::numeric::odeint;
 // Light that left gas nearer than this to the past horizon (M) is not looked for.  Its redshift is
 // about the inverse, a million or more.
 constexpr double kPastHorizon = 1e-6;
+
+double lapse_squared(double r, double charge) { return 1 - 2 / r + charge * charge / (r * r); }
+double horizon(double charge) { return 1 + std::sqrt((1 - charge) * (1 + charge)); }
 
 double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector3 cross(const Vector3& a, const Vector3& b) {
@@ -51,13 +55,17 @@ class IntegratedGeodesic {
   using Fehlberg78 =
       odeint::runge_kutta_fehlberg78<Light, double, Light, double, odeint::array_algebra>;
 
-  IntegratedGeodesic(const ReferenceDiscView& view, const Vector3& direction) {
+  IntegratedGeodesic(const ReferenceDiscView& view, const Vector3& direction)
+      : charge_(view.charge) {
     const auto k = boosted(view.celerity, direction);
-    const double s = std::sqrt(2 / view.r) * (view.outgoing ? -1 : 1);
-    // The Killing vector is d/dt = T + s R, and E is its product with the wave vector.  The frame
-    // itself moves by -s against spheres of constant r, which gives k^r.
-    energy_ = k[0] - s * k[1];
-    const double radial = k[1] - s * k[0];
+    // The Killing vector is d/dt = T + s R, or (1 + f)/2 T + (1 - f)/2 R near a charge, and E is its
+    // product with the wave vector.  The frame itself moves against spheres of constant r, which
+    // gives k^r.
+    const double f = lapse_squared(view.r, charge_);
+    const double along_t = charge_ > 0 ? (1 + f) / 2 : 1;
+    const double s = (charge_ > 0 ? (1 - f) / 2 : std::sqrt(2 / view.r)) * (view.outgoing ? -1 : 1);
+    energy_ = along_t * k[0] - s * k[1];
+    const double radial = along_t * k[1] - s * k[0];
     light_[0] = view.r;
     light_[3] = -radial, light_[4] = -k[2], light_[5] = -k[3];
     // The rate is back in time, but h^2 = L^2 has no sign.
@@ -72,16 +80,17 @@ class IntegratedGeodesic {
   const Light& light() const { return light_; }
 
   void operator()(const Light& y, Light& rate, double /*lambda*/) const {
-    const double r = y.r(), pull = -3 * spin2_ / (r * r * r * r * r);
+    const double r = y.r(), r5 = r * r * r * r * r;
+    const double pull = (-3 + 2 * charge_ * charge_ / r) * spin2_ / r5;
     for (std::size_t i = 0; i < 3; ++i) {
       rate[i] = y[i + 3];
       rate[i + 3] = pull * y[i];
     }
-    // Along the light dv/dlambda = (E + k^r)/(1 - 2/r).  For light that falls this is 0/0 at r = 2,
-    // so L^2/(r^2 (E - k^r)) is used, which is the same because E^2 - (k^r)^2 = (1 - 2/r) L^2/r^2.
+    // Along the light dv/dlambda = (E + k^r)/f.  For light that falls this is 0/0 on the horizon, so
+    // L^2/(r^2 (E - k^r)) is used, which is the same because E^2 - (k^r)^2 = f L^2/r^2.
     const double radial = -y.outwards();
-    rate[6] =
-        radial < 0 ? -spin2_ / (r * r * (energy_ - radial)) : -(energy_ + radial) / (1 - 2 / r);
+    rate[6] = radial < 0 ? -spin2_ / (r * r * (energy_ - radial))
+                         : -(energy_ + radial) / lapse_squared(r, charge_);
   }
 
   // Goes back along the ray by one step, and returns the state before it.
@@ -90,7 +99,7 @@ class IntegratedGeodesic {
     // No step covers more than a part of the way to the hole's centre.  Light that moves outwards
     // came from the past horizon, where v = -infinity, so its steps cover a part of that way.
     const double speed = std::sqrt(dot(light_.rate(), light_.rate()));
-    const double way = light_.outwards() < 0 ? light_.r() - 2 : light_.r();
+    const double way = light_.outwards() < 0 ? light_.r() - horizon(charge_) : light_.r();
     length_ = std::min(length_, 0.3 * way / speed);
     double lambda = 0;
     for (int tries = 0; tries < 100; ++tries) {
@@ -115,6 +124,7 @@ class IntegratedGeodesic {
   using Stepper = odeint::controlled_runge_kutta<Fehlberg78>;
   static constexpr double kTolerance = 1e-14;
 
+  double charge_;
   Light light_;
   double energy_ = 0, spin2_ = 0, length_ = 1e-2, taken_ = 0;
   Stepper stepper_ = Stepper(Stepper::error_checker_type(kTolerance, kTolerance));
@@ -135,55 +145,90 @@ Light on_plane(const IntegratedGeodesic& ray, const Light& from, double length,
 
 // ---- The gas ----
 
-// Returns the flux from a face of the disc at r >= 6, up to a constant factor.  The gas radiates
-// what it loses between r and the last stable orbit.  In [Page & Thorne 1974] that is the integral
-// of (E - Omega L) dL/dr, here by quadrature, over r (E - Omega L)^2/|dOmega/dr|.  On circles
-// E - Omega L = sqrt(1 - 3/r) and L = r/sqrt(r - 3), so the integrand is
-// (r - 6)/(2 sqrt(r) (r - 3)).  With Omega = r^(-3/2) the divisor is proportional to
-// (r - 3) r^(5/2).
-//
-// The pull of plunging gas adds a constant (disc_light.h): 0.02 of the angular momentum sqrt(12)
-// of the last stable orbit, times E - Omega L = sqrt(1/2) there.
-double flux(double r, bool plunging) {
-  const auto lost = [](double x) { return (x - 6) / (2 * std::sqrt(x) * (x - 3)); };
-  const double brought =
-      r > 6 ? boost::math::quadrature::gauss_kronrod<double, 31>::integrate(lost, 6, r, 12, 1e-13)
-            : 0;
-  return (brought + (plunging ? 0.02 * std::sqrt(6.0) : 0)) / ((r - 3) * std::pow(r, 2.5));
-}
-
-// Returns the largest flux at r >= 6.  It lies at 9.55, where a search by thirds finds it, or at 6
-// if gas plunges.
-double greatest_flux(bool plunging) {
-  if (plunging) return flux(6, true);
-  // The flux has a single maximum between these bounds.  100 steps leave (2/3)^100 = 2e-18 of their
-  // distance.
-  double low = 8, high = 12;
-  for (int k = 0; k < 100; ++k) {
-    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    (flux(a, false) < flux(b, false) ? low : high) = flux(a, false) < flux(b, false) ? a : b;
+// A Gas has the circles of gas, whose E, L and Omega follow from the metric, and their last stable
+// one.
+class Gas {
+ public:
+  Gas(double charge, bool plunging) : q2_(charge * charge), plunging_(plunging) {
+    // The cubic rises from below 0 at 3 to above it at 7.
+    double low = 3, high = 7;
+    for (int k = 0; k < 100; ++k) {
+      const double r = (low + high) / 2;
+      (r * (r * (r - 6) + 9 * q2_) - 4 * q2_ * q2_ < 0 ? low : high) = r;
+    }
+    edge_ = charge > 0 ? high : 6;
+    greatest_ = flux(plunging ? edge_ : hottest());
   }
-  return flux((low + high) / 2, false);
+
+  double edge() const { return edge_; }
+  double omega(double r) const { return std::sqrt(r - q2_) / (r * r); }
+  double free(double r) const { return std::sqrt(1 - 3 / r + 2 * q2_ / (r * r)); }  // E - Omega L
+  double momentum(double r) const { return std::sqrt(r - q2_) / free(r); }
+  double energy(double r) const { return free(r) + omega(r) * momentum(r); }
+
+  // Flux goes like the fourth power of temperature.  Below the last stable orbit the plunging gas
+  // expands by the law of [Mummery & Balbus 2023], as in disc_light.h.
+  double temperature(double r) const {
+    if (r >= edge_) return std::pow(flux(r) / greatest_, 0.25);
+    if (!plunging_) return 0;
+    const auto start = [this](double at) { return std::sqrt(2 - q2_ * (3 / edge_ + 1 / at)); };
+    const double fall = std::pow(edge_ / r - 1, 1.5) * start(r) / start(edge_);
+    return std::pow(edge_ / r, 17.0 / 28) * std::pow(1 + fall / 0.01, -1.0 / 28);
+  }
+
+ private:
+  // Returns the flux from a face of the disc, up to a constant factor.  The gas radiates what it
+  // loses between r and the last stable orbit.  In [Page & Thorne 1974] that is the integral of
+  // (E - Omega L) dL/dr, here by quadrature, over r (E - Omega L)^2/|dOmega/dr|.  The pull of
+  // plunging gas adds 0.02 of the angular momentum of the last stable orbit, times E - Omega L.
+  double flux(double r) const {
+    const auto lost = [this](double x) {
+      const double slowing = x * x - 3 * x + 2 * q2_;
+      const double log_slope = 0.5 / (x - q2_) + 1 / x - (x - 1.5) / slowing;  // of L
+      return free(x) * momentum(x) * log_slope;
+    };
+    const double brought = r > edge_
+                               ? boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+                                     lost, edge_, r, 12, 1e-13)
+                               : 0;
+    const double steeper = (3 * r - 4 * q2_) / (r * r * r * std::sqrt(r - q2_));  // 2 |dOmega/dr|
+    const double pulled = plunging_ ? 0.02 * momentum(edge_) * free(edge_) : 0;
+    return (brought + pulled) * steeper / (r * free(r) * free(r));
+  }
+
+  // Returns where the flux has its only maximum, by thirds.  100 steps leave (2/3)^100 = 2e-18 of
+  // the distance.
+  double hottest() const {
+    double low = edge_ * 1.3, high = edge_ * 2;
+    for (int k = 0; k < 100; ++k) {
+      const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+      (flux(a) < flux(b) ? low : high) = flux(a) < flux(b) ? a : b;
+    }
+    return (low + high) / 2;
+  }
+
+  double q2_;
+  bool plunging_;
+  double edge_ = 0, greatest_ = 1;
+};
+
+// The quadratures of a gas are many, and views few.
+const Gas& gas_of(const ReferenceDiscView& view) {
+  static std::map<std::pair<double, bool>, Gas> known;
+  return known.try_emplace({view.charge, view.plunging}, view.charge, view.plunging).first->second;
 }
 
-// Flux goes like the fourth power of temperature.  Below 6 the plunging gas expands by the law of
-// [Mummery & Balbus 2023], as in disc_light.h.
-double temperature(double r, bool plunging) {
-  static const double greatest[] = {greatest_flux(false), greatest_flux(true)};
-  if (r >= 6) return std::pow(flux(r, plunging) / greatest[plunging ? 1 : 0], 0.25);
-  if (!plunging) return 0;
-  return std::pow(6 / r, 17.0 / 28) * std::pow(1 + std::pow(6 / r - 1, 1.5) / 0.01, -1.0 / 28);
-}
-
-// Returns 1 + z = u.k for gas on a circle, Omega = r^(-3/2), u^t = 1/sqrt(1 - 3/r).  Plunging gas
-// keeps the energy sqrt(8/9) and the angular momentum sqrt 12 of the last stable orbit.  Its u^r
-// follows from u.u = 1, and with f = 1 - 2/r the product is (E_gas E - u^r k^r)/f - L_gas L/r^2.
-double shift(const IntegratedGeodesic& ray, const Light& at, const Vector3& axis) {
-  const double r = at.r(), turned = ray.momentum_about(axis);
-  if (r >= 6) return (ray.energy() - turned / std::pow(r, 1.5)) / std::sqrt(1 - 3 / r);
-  const double own = std::sqrt(8.0 / 9), f = 1 - 2 / r;
-  const double fall = -std::sqrt(std::max(0.0, 8.0 / 9 - f * (1 + 12 / (r * r))));
-  return (own * ray.energy() + fall * at.outwards()) / f - std::sqrt(12.0) * turned / (r * r);
+// Returns 1 + z = u.k for gas on a circle, u^t (E - Omega L).  Plunging gas keeps the energy and the
+// angular momentum of the last stable orbit.  Its u^r follows from u.u = 1, and the product is
+// (E_gas E - u^r k^r)/f - L_gas L/r^2.
+double shift(const IntegratedGeodesic& ray, const Light& at, const ReferenceDiscView& view) {
+  const Gas& gas = gas_of(view);
+  const double r = at.r(), turned = ray.momentum_about(view.normal);
+  if (r >= gas.edge()) return (ray.energy() - turned * gas.omega(r)) / gas.free(r);
+  const double own = gas.energy(gas.edge()), spin = gas.momentum(gas.edge());
+  const double f = lapse_squared(r, view.charge);
+  const double fall = -std::sqrt(std::max(0.0, own * own - f * (1 + spin * spin / (r * r))));
+  return (own * ray.energy() + fall * at.outwards()) / f - spin * turned / (r * r);
 }
 
 // Returns the azimuth (radians) of a place in the plane, from the part of R in the plane or, where
@@ -202,7 +247,8 @@ std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
   std::vector<ReferenceDiscPlace> found;
   // Light with E < 0 comes from region III.  An observer before the past horizon sees region IV
   // alone.
-  if (!(ray.energy() > 0) || (view.outgoing && view.r <= 2)) return found;
+  const double end = horizon(view.charge);
+  if (!(ray.energy() > 0) || (view.outgoing && view.r <= end)) return found;
   // An observer in the plane counts as being on the side to which the ray leads.
   double before_side = dot(ray.light().place(), view.normal);
   if (before_side == 0) before_side = dot(ray.light().rate(), view.normal);
@@ -213,20 +259,17 @@ std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
     if (side * before_side < 0) {
       const Light at = on_plane(ray, before, ray.taken(), view.normal);
       const double r = at.r();
-      if (r > 2 && r >= view.inner && r <= view.outer) {
-        // The gas has t = v - r*, and at[6] is v there less the observer's v, which is u + 2 r* of
-        // the observer.
-        const double tortoise = r + 2 * std::log(r / 2 - 1);
+      if (r > end && r >= view.inner && r <= view.outer) {
+        // at[6] is v there less the observer's v, which is u + 2 r* of the observer.
         const double own = view.r + 2 * std::log(view.r / 2 - 1);
-        found.push_back({order, r, azimuth_of(at.place(), view.normal), shift(ray, at, view.normal),
-                         temperature(r, view.plunging),
-                         tortoise - at[6] - (view.outgoing ? 2 * own : 0)});
+        found.push_back({order, r, azimuth_of(at.place(), view.normal), shift(ray, at, view),
+                         gas_of(view).temperature(r), -at[6] - (view.outgoing ? 2 * own : 0)});
       }
       ++order;
     }
     before_side = side;
     // The ray has come to the past horizon, or it leads to the sky and is beyond the disc.
-    if (now.outwards() < 0 && now.r() < 2 + kPastHorizon) break;
+    if (now.outwards() < 0 && now.r() < end + kPastHorizon) break;
     if (now.outwards() > 0 && now.r() > 3 && now.r() > view.outer) break;
   }
   return found;

@@ -104,7 +104,8 @@ TEST(DiscShift, IsTheProductOfRayAndMotion) {
     ASSERT_NEAR(product(gas, gas, r), 1, 1e-9);
     const double truth = shift_of_vectors(ray, r, psi, tangent, normal, gas, outward);
     // Next to the horizon the products cancel.
-    EXPECT_NEAR(disc_shift(ray, r, outward) / truth, 1, 1e-14 / (f * f) + 1e-11) << r << " " << at;
+    EXPECT_NEAR(disc_shift(GasOrbits(), ray, r, outward) / truth, 1, 1e-14 / (f * f) + 1e-11)
+        << r << " " << at;
     EXPECT_GT(truth, 0);
   }
 }
@@ -114,18 +115,19 @@ TEST(DiscShift, OfPlungingGasIsRegularAtTheHorizonForLightThatFallsToo) {
   const V3d normal = normal_at(1.2), tangent = tangent_at(0.7);
   const DiscRay ray = disc_ray(invariants(ray_at(1.8, 2.5)), kPlace, tangent, normal);
   ASSERT_GT(ray.energy, 0);
-  const double at_horizon = disc_shift(ray, 2, false);
+  const double at_horizon = disc_shift(GasOrbits(), ray, 2, false);
   EXPECT_GT(at_horizon, 0);
-  EXPECT_NEAR(disc_shift(ray, 2 + 1e-9, false), at_horizon, 1e-7);
-  EXPECT_GT(disc_shift(ray, 2 + 1e-9, true), 1e8);
-  EXPECT_EQ(disc_shift(ray, 2, true), INFINITY);
+  EXPECT_NEAR(disc_shift(GasOrbits(), ray, 2 + 1e-9, false), at_horizon, 1e-7);
+  EXPECT_GT(disc_shift(GasOrbits(), ray, 2 + 1e-9, true), 1e8);
+  EXPECT_EQ(disc_shift(GasOrbits(), ray, 2, true), INFINITY);
 }
 
 TEST(DiscShift, OfGasThatBeginsToPlungeIsThatOfTheLastStableOrbit) {
   const V3d normal = normal_at(0.4), tangent = tangent_at(2);
   const DiscRay ray = disc_ray(invariants(ray_at(15, 0.5)), kPlace, tangent, normal);
   for (const bool outward : {false, true})
-    EXPECT_NEAR(disc_shift(ray, std::nextafter(6, 0), outward), disc_shift(ray, 6, outward), 1e-12);
+    EXPECT_NEAR(disc_shift(GasOrbits(), ray, std::nextafter(6, 0), outward),
+                disc_shift(GasOrbits(), ray, 6, outward), 1e-12);
 }
 
 struct GyotoPixel {

@@ -40,7 +40,8 @@ inline double frequency_at_rest(double r, double delta) {
 // 1 + z of the disc at r for an observer at rest at `at`, on the ray at delta and chi.
 inline double shift_at_rest(double at, double delta, double chi, const V3d& normal, double r) {
   const NullRay ray = ray_at(at, delta, {false, true});
-  return disc_shift(disc_ray(invariants(ray), kPlace, tangent_at(chi), normal), r, true) /
+  return disc_shift(GasOrbits(), disc_ray(invariants(ray), kPlace, tangent_at(chi), normal), r,
+                    true) /
          frequency_at_rest(at, delta);
 }
 
