@@ -117,7 +117,8 @@ class Retardation {
     // A place of region II is on the ray before it has turned.
     if (!place || (body.r < horizon(view) && place->slope < 0)) return std::nullopt;
     const double own = body.null_time - (is_outgoing(view) ? 2 * tortoise(view, body.r) : 0);
-    return Light{*place, across, null_time_ + place->null_time - own};
+    const PlaceLight& light = *place;
+    return Light{light, across, null_time_ + light.null_time - own};
   }
 
   const View& view_;

@@ -44,7 +44,7 @@ SkyTable::SkyTable(const SkyZone& zone, int bits)
   const double x_min = curve_.x_min();
   if (zone.level)
     level_ = PowerLaw{x_min, zone.azimuth(0), curve_.value(x_min) - zone.azimuth(0), 2};
-  else
+  else if (zone.logarithm > 0)
     law_ = fit_edge_law(x_min, zone.logarithm, [this](double x) {
       return zone_.winding ? continued_azimuth(x) - winding(x) : continued_azimuth(x);
     });
@@ -71,15 +71,16 @@ double SkyTable::continued_azimuth(double x) const {
 
 double SkyTable::beside_edge(double x) const {
   if (level_) return level_->azimuth(x);
-  return zone_.winding ? law_.azimuth(x) + winding(x) : law_.azimuth(x);
+  if (!law_) return continued_azimuth(x);
+  return zone_.winding ? law_->azimuth(x) + winding(x) : law_->azimuth(x);
 }
 
 double SkyTable::slope_by_x(double x) const {
   constexpr double kStep = 1e-4;  // of x, for a central difference
   if (x >= curve_.x_min()) return curve_.at(x).first;
   if (level_) return level_->slope(x);
-  if (!zone_.winding) return law_.slope(x);
-  return law_.slope(x) + (winding(x * (1 + kStep)) - winding(x * (1 - kStep))) / (2 * kStep * x);
+  if (law_ && !zone_.winding) return law_->slope(x);
+  return (beside_edge(x * (1 + kStep)) - beside_edge(x * (1 - kStep))) / (2 * kStep * x);
 }
 
 double SkyTable::slope(double x) const {
@@ -103,7 +104,7 @@ double SkyTable::slope_at_end(double y) const {
 // Solves in the logarithm of x, against which that of the azimuth is nearly straight.
 double SkyTable::distance_beside_edge(double phi) const {
   if (level_) return level_->distance(phi);
-  if (!zone_.winding) return law_.distance(phi);
+  if (law_ && !zone_.winding) return law_->distance(phi);
   constexpr double kLeast = -690;  // of ln x; a double has hardly any less
   const auto excess = [&](double log_x) { return std::log(beside_edge(std::exp(log_x)) / phi); };
   const double high = std::log(curve_.x_min());

@@ -166,8 +166,9 @@ class SkyTable {
   SkyZone zone_;
   double x_max_, x_split_;
   OctaveCurve curve_;
-  EdgeLaw law_;                    // below the curve, but for
-  std::optional<PowerLaw> level_;  // a level edge
+  // Below the curve phi has one of these, or is exact where neither holds.
+  std::optional<EdgeLaw> law_;
+  std::optional<PowerLaw> level_;
   // These are in y, for x > x_split_.
   std::optional<OctaveCurve> end_curve_;
   std::optional<PowerLaw> end_law_;

@@ -52,8 +52,8 @@ class FrameKeys {
 
   const Show& show_;
   std::string common_;
-  std::string sky_three_, sky_four_,
-      sky_next_;  // they enter the keys of frames that can see these skies
+  // These enter the keys of frames that can see these skies.
+  std::string sky_three_, sky_four_, sky_next_;
   // backgrounds that segments have of their own, by the segment's index
   std::map<int, std::string> own_skies_;
   std::string grade_;

@@ -36,7 +36,7 @@ std::vector<SamplePlace> sample_places(bool quick, bool at_edge) {
       for (const SampleRay& ray : group) {
         part = std::fmod(part + kGolden, 1.0);
         const double psi = ray.phi * (kFirst + kRange * part);
-        const RayRequest& request = std::get<RayRequest>(ray.request);
+        const auto& request = std::get<RayRequest>(ray.request);
         places.push_back({request, psi, reference_position(reference_request(request), psi)});
       }
   }

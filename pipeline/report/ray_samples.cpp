@@ -236,6 +236,7 @@ std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius)
   // Each kind of difficulty has numbers of its own.
   Dice dice(kSeed + static_cast<std::uint64_t>(of.difficulty));
   std::vector<RayGroup> groups;
+  groups.reserve(static_cast<std::size_t>(radii));
   for (int g = 0; g < radii; ++g)
     groups.push_back(throw_group(of, static_cast<std::size_t>(g), per_radius, dice));
   return groups;

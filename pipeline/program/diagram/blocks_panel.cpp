@@ -137,8 +137,8 @@ class Blocks {
   }
 
   void fill(const std::vector<PenrosePoint>& corners) {
-    std::vector<PagePoint> points;
-    for (const PenrosePoint& p : corners) points.push_back(at_(p));
+    std::vector<PagePoint> points(corners.size());
+    std::transform(corners.begin(), corners.end(), points.begin(), at_);
     page_.area(points, "#f1f2f5");
   }
 

@@ -121,7 +121,7 @@ Table read_table(const std::filesystem::path& file, const Spacetime& spacetime) 
 std::optional<Celerity<GivenFrame>> read_speed_on_path(const Section& s, const Stage& stage,
                                                        const GivenVelocity& frame, Lookup& lookup) {
   if (!s.find("speed") && !s.find("lorentz_factor")) return std::nullopt;
-  const auto own = read_own_celerity(s, stage, frame, lookup);
+  auto own = read_own_celerity(s, stage, frame, lookup);
   // Rounding may leave a little of Theta in a direction that lies in the plane.
   if (own && std::abs(own->y) > 1e-12 * own->length())
     return s.find("direction")->fail("leaves the plane of the path; give radial and phi only");

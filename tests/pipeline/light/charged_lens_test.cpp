@@ -553,5 +553,25 @@ TEST(ChargedLens, ChangesWithoutAStepAcrossHorizons) {
   }
 }
 
+// Where the two circles of light meet, azimuths follow no logarithm beside a critical ray.
+TEST(ChargedTables, FollowTheExactAzimuthWhereNoLogarithmHolds) {
+  for (const double q : {kNoCircle * (1 - 1e-15), kNoCircle * (1 - 1e-13)})
+    for (const double r : {1.0, 2.0, 30.0}) {
+      const HoleOptics optics = optics_at({q, r, Region::kI});
+      for (const SkyPart& part : optics.parts) {
+        if (part.zone.level) continue;
+        const double innermost = part.table->curve().x_min();
+        for (const double x : {innermost / 2, innermost / 1e3, innermost / 1e9}) {
+          const double phi = part.zone.azimuth(4 * std::atan(x / 2));
+          EXPECT_NEAR(part.table->azimuth(x), phi, 1e-9 * phi) << q << ' ' << r << ' ' << x;
+          // Nothing is seen closer to an edge than this.
+          constexpr double kUnseen = 1e-15;
+          EXPECT_NEAR(part.table->distance(phi), x, 1e-6 * x + kUnseen)
+              << q << ' ' << r << ' ' << x;
+        }
+      }
+    }
+}
+
 }  // namespace
 }  // namespace domefall

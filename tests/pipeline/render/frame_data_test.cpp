@@ -74,8 +74,8 @@ TEST(FrameMattes, TellTheUniversesApart) {
   show.disc.reset();
   show.bodies.clear();
   show.spacetime = hole;
-  show.timeline[0].trajectory = ChargedOrbit::through(hole, 9, 0, 0);
-  show.timeline[0].timing = {-12, 12};
+  show.timeline[0].trajectory = ChargedOrbit::falling(hole, 9, 0, 0);
+  show.timeline[0].timing = {0, 24};
   const LayeredFloatFrame before = with_mattes(show, 0), after = with_mattes(show, 29);
   const auto sum = [](const LayeredFloatFrame& frame, const char* name) {
     double total = 0;

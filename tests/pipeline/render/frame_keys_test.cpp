@@ -62,9 +62,9 @@ TEST(FrameKeys, KnowThePeriodOfRingsAndTheObserversTime) {
 // A fall from 9 M to the same r of the next universe, at the first frame and at the last.
 TEST(FrameKeys, KnowTheNextSkyWhereItIsSeen) {
   const ChargedHole hole(1, 0.9L);
-  Show show = show_of(ChargedOrbit::through(hole, 9, 0, 0), Domemaster{64});
+  Show show = show_of(ChargedOrbit::falling(hole, 9, 0, 0), Domemaster{64});
   show.spacetime = hole;
-  show.timeline[0].timing = {-12, 12};
+  show.timeline[0].timing = {0, 24};
   const auto last_key = [](const Show& s) { return FrameKeys(s).scene(frame_state(s, 29)); };
   Show other = show;
   other.sky[SkyRegion::kNext].background = GridSky{};
