@@ -115,6 +115,9 @@ HoleOptics optics_of(const AnyRay& ray) {
   ObserverState observer;
   if (const auto* charged = std::get_if<ChargedRequest>(&ray)) {
     observer.r = charged->at.r;
+    observer.region = charged->at.above_outer > 0   ? Region::kI
+                      : charged->at.above_inner > 0 ? Region::kII
+                                                    : Region::kV;
     return make_charged_optics(charged->hole, observer);
   }
   const auto& within = std::get<WormholeRequest>(ray);

@@ -124,9 +124,6 @@ TEST_F(OtherSpaces, NearAChargeWhatDoesNotExistIsNamed) {
   complains("{type: infall, rest_r: 8, angular_momentum: 4}",
             "77: .angular_momentum must be below 3.170880655 (units of M), got 4: with more, what "
             "starts at r = 8 does not fall in");
-  complains("{type: infall, from_r: 8, to_r: 0.35}",
-            "33:  goes through the inner horizon, r = 0.4 M, beyond which nothing is drawn; end it "
-            "above, as by to_r");
   complains(
       "{type: thrown, from_r: 1, against: constant_t, speed: 0}",
       "87: .speed leads through the crossing of the inner horizons, where no tetrad is regular; "
