@@ -353,7 +353,7 @@ ChargedOrbit ChargedOrbit::between(const ChargedHole& hole, double periastron, d
                   "no stable orbit is smaller");
     require_above(
         "periastron", "units of M", periastron,
-        static_cast<double>(1 / separatrix(s, [&](const Wide&) -> Wide { return w1; })),
+        static_cast<double>(1 / separatrix(s, [&](const Wide&) { return Wide(w1); })),
         "below it an orbit that rises to " + short_number(apoastron) + " falls into the hole");
   }
   require_at_least("apoastron", "units of M", apoastron, periastron,
@@ -390,7 +390,7 @@ ChargedOrbit ChargedOrbit::from_rest(const ChargedHole& hole, double r, double l
   const Wide w = 1 / Wide(r), f = s.f(w), l2 = Wide(l) * l;
   if (!hole.is_naked() && r > hole.light_circle()) {
     const bool stable = r > hole.last_stable_orbit();
-    const Wide top = stable ? separatrix(s, [&](const Wide&) -> Wide { return w; }) : w;
+    const Wide top = stable ? separatrix(s, [&](const Wide&) { return Wide(w); }) : w;
     require_below("angular_momentum", "units of M", l,
                   static_cast<double>(sqrt(circle_constants(s, top).l2)),
                   "with more, what starts at r = " + short_number(r) + " does not fall in");

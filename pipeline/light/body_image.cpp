@@ -12,7 +12,7 @@
 namespace domefall {
 namespace {
 
-// ---- what the two kinds of holes have of their own ----
+// ---- what each kind of space has of its own ----
 
 double horizon(const PlaceView&) { return Schwarzschild::horizon(); }
 double horizon(const ChargedPlaceView& view) { return view.hole.horizon(); }
@@ -24,6 +24,25 @@ bool is_outgoing(const PlaceView& view) { return view.outgoing; }
 bool is_outgoing(const ChargedPlaceView&) { return false; }
 double tortoise(const PlaceView&, double r) { return Schwarzschild::tortoise(r); }
 double tortoise(const ChargedPlaceView& view, double r) { return view.hole.tortoise(r); }
+
+// A wormhole has no horizon, and l tells its places apart.
+double horizon(const WormholePlaceView&) { return Wormhole::horizon(); }
+bool is_within(const WormholePlaceView&) { return false; }
+double place_of(const WormholePlaceView& view) { return view.l; }
+bool is_outgoing(const WormholePlaceView&) { return false; }
+double tortoise(const WormholePlaceView&, double) { return 0; }
+WormholePlaceView far_view(const WormholePlaceView& view) { return view; }
+
+template <class View>
+View far_view(View view) {
+  view.far = true;
+  return view;
+}
+template <class View>
+double place_of(const View&, const BodyPoint& body) {
+  return body.r;
+}
+double place_of(const WormholePlaceView&, const BodyPoint& body) { return body.l; }
 
 // A Received is light in the frame of free fall at a place: its frequency, and against R the
 // component of its motion.
@@ -47,6 +66,10 @@ Received received(const ChargedPlaceView& view, double r, double energy, double 
   const double half = energy > 0 && k_r < 0 ? across * across / (energy - k_r) / 2
                                             : (energy + k_r) / view.hole.lapse_squared(r) / 2;
   return {(energy - k_r) / 2 + half, half - (energy - k_r) / 2};
+}
+
+Received received(const WormholePlaceView&, double, double energy, double k_l, double) {
+  return {energy, k_l};
 }
 
 // ---- light ----
@@ -98,8 +121,7 @@ class Retardation {
     } else if (is_within(view_)) {
       // Within the hole light reaches the observer from both sides, with E > 0 and with E < 0.
       // What it has seen or sees lies between the two.
-      View other = view_;
-      other.far = true;
+      const View other = far_view(view_);
       const auto falling = light_by(view_, body, guess.psi, across),
                  rising = light_by(other, body, guess.psi, across);
       if (!falling || !rising) return guess;
@@ -113,7 +135,7 @@ class Retardation {
  private:
   std::optional<Light> light_by(const View& view, const BodyPoint& body, double psi,
                                 const V3d& across) const {
-    const auto place = image_of_place(view, body.r, psi, radius_ / body.r);
+    const auto place = image_of_place(view, place_of(view, body), psi, radius_ / body.r);
     // A place of region II is on the ray before it has turned.
     if (!place || (body.r < horizon(view) && place->slope < 0)) return std::nullopt;
     const double own = body.null_time - (is_outgoing(view) ? 2 * tortoise(view, body.r) : 0);
@@ -130,17 +152,18 @@ class Retardation {
 
 // Returns k^r of the light at the body.  It is away from the hole if the ray goes inwards when
 // followed back.
-double radial_momentum(double observer_r, const BodyPoint& body, const PlaceLight& light) {
+template <class View>
+double radial_momentum(const View& view, const BodyPoint& body, const PlaceLight& light) {
   if (light.angular_momentum > 0 && light.slope != 0)
     return -light.angular_momentum * light.slope / (body.r * body.r);
-  return body.r > observer_r ? -std::abs(light.energy) : std::abs(light.energy);
+  return place_of(view, body) > place_of(view) ? -std::abs(light.energy) : std::abs(light.energy);
 }
 
 // Returns the frequency that the body gives to light that is one in the tetrad.
 template <class View>
 double emitted(const View& view, const BodyPoint& body, const Light& light) {
   const double across = light.place.angular_momentum / body.r;
-  const double k_r = radial_momentum(place_of(view), body, light.place);
+  const double k_r = radial_momentum(view, body, light.place);
   const Received there = received(view, body.r, light.place.energy, k_r, across);
   // Light that comes back along the ray has the angular momentum -L about R x across.
   const V3d axis = V3d(1, 0, 0).cross(light.across);
@@ -221,6 +244,10 @@ std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
   return body_image(view, null_time, motion, order, radius);
 }
 std::optional<BodyImage> image_of_body(const ChargedPlaceView& view, double null_time,
+                                       const BodyMotion& motion, int order, double radius) {
+  return body_image(view, null_time, motion, order, radius);
+}
+std::optional<BodyImage> image_of_body(const WormholePlaceView& view, double null_time,
                                        const BodyMotion& motion, int order, double radius) {
   return body_image(view, null_time, motion, order, radius);
 }

@@ -20,6 +20,7 @@ struct BodyPoint {
   double null_time;      // v = t + r*, since the instant that the observer's null time counts from
   double gamma, radial;  // of the celerity: its gamma, and its component along R
   V3d angular_momentum;  // r u^phi about its axis, units of M
+  double l = 0;          // in a wormhole, whose R points to greater l
 };
 
 // A BodyMotion gives the points of a body for tau in (begin, end), over which v grows with tau.
@@ -54,6 +55,9 @@ std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
                                        const BodyMotion& motion, int order, double radius);
 // The same near a charge, where rain is the tetrad T.
 std::optional<BodyImage> image_of_body(const ChargedPlaceView& view, double null_time,
+                                       const BodyMotion& motion, int order, double radius);
+// The same in a wormhole, on either side of it, where rain is at rest and v = t + l.
+std::optional<BodyImage> image_of_body(const WormholePlaceView& view, double null_time,
                                        const BodyMotion& motion, int order, double radius);
 
 }  // namespace domefall

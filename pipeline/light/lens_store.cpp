@@ -56,6 +56,8 @@ std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
   for (const SkyRegion sky : kEverySky) axes[sky] = sky_axes(observer, sky);
   if (observer.spacetime.is<Schwarzschild>())
     return std::make_shared<SchwarzschildLens>(kept_, axes);
+  if (const auto* wormhole = std::get_if<Wormhole>(&observer.spacetime.kind()))
+    return std::make_shared<WormholeLens>(kept_, axes, *wormhole, observer.l);
   // Discs and bodies are known above the inner horizon of the first universe alone.
   const auto* hole = std::get_if<ChargedHole>(&observer.spacetime.kind());
   if (hole && observer.universe == 0 && observer.r > hole->inner_horizon())

@@ -7,6 +7,7 @@
 
 #include "pipeline/light/null_ray.h"
 #include "pipeline/spacetime/charged.h"
+#include "pipeline/spacetime/wormhole.h"
 
 namespace domefall {
 
@@ -25,11 +26,17 @@ struct ChargedPlaceView {
   bool far = false;
 };
 
+// The same in a wormhole, for an observer at rest.
+struct WormholePlaceView {
+  Wormhole wormhole;
+  double l;
+};
+
 // A PlaceLight is the light of the place.
 struct PlaceLight {
   double sin_half = 0, cos_half = 1;  // of alpha/2, alpha from -R or, in the outgoing frame, from R
   double energy = 0, angular_momentum = 0;  // E, signed, and L of light that is one in the tetrad
-  double slope = 0;                         // dr/dpsi, signed
+  double slope = 0;                         // dr/dpsi, signed; dl/dpsi in a wormhole
   double null_time = 0;                     // ray_times.h
   // This is the solid angle at the observer per area at right angles to the light at the place,
   // which is the same for whoever moves there, in units of M^-2.  It is |E|/(r_o |sin psi
@@ -59,6 +66,12 @@ std::optional<PlaceImage> image_of_place(const PlaceView& view, double r, double
 // falls to an observer there.  Measured, the place is right to 1e-12 e^psi, the time to 1e-11
 // (1 + |v|) e^psi, and the solid angle to 1e-6.
 std::optional<PlaceLight> image_of_place(const ChargedPlaceView& view, double r, double psi,
+                                         double blur);
+
+// The same in a wormhole, for a place at l on either side, where l is what grows with the angle from
+// -R at the same psi.  Measured against rays of 6,000 small steps, l and psi agree to 1e-9 e^psi, and
+// the solid angle to 1e-3, within what the steps err.
+std::optional<PlaceLight> image_of_place(const WormholePlaceView& view, double l, double psi,
                                          double blur);
 
 }  // namespace domefall

@@ -1,47 +1,16 @@
 #include "pipeline/light/wormhole_azimuth.h"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/ellint_rf.hpp>
 #include <cmath>
 #include <limits>
 
-#include "pipeline/spacetime/wormhole_leg.h"
+#include "pipeline/light/wormhole_ray.h"
 
 namespace domefall {
 namespace {
 
 using boost::math::ellint_rf;
-
-// The throat's view has this angle.  Its cosine vanishes at the throat and keeps its digits there.
-struct EdgeAngle {
-  double sine, cosine;
-};
-
-EdgeAngle edge_angle(const Wormhole& w, double l) {
-  const double above = w.above_throat(l), r = 1 + above;
-  return {1 / r, std::sqrt(above) * std::sqrt(2 + above) / r};
-}
-
-struct ThroatRay {
-  double r;             // of the observer
-  double b, below;      // b and 1 - b
-  double cosine;        // of delta
-  bool inward, passes;  // towards the throat at first; through it
-};
-
-ThroatRay throat_ray(const Wormhole& w, double l, double offset) {
-  const EdgeAngle edge = edge_angle(w, l);
-  const double r = w.radius(l), sine = std::sin(offset / 2), cosine = std::cos(offset / 2);
-  ThroatRay ray{};
-  ray.r = r;
-  ray.b = r * (edge.sine * std::cos(offset) + edge.cosine * std::sin(offset));
-  ray.below = -2 * r * sine * (edge.cosine * cosine - edge.sine * sine);
-  ray.cosine = edge.cosine * std::cos(offset) - edge.sine * std::sin(offset);
-  ray.passes = offset < 0;
-  ray.inward = ray.passes || ray.cosine > 0;
-  return ray;
-}
 
 // ---- ellis ----
 
@@ -56,37 +25,11 @@ double ellis_azimuth(const ThroatRay& ray, double l) {
 
 // ---- dngr ----
 
-using LegRule = boost::math::quadrature::gauss<double, 20>;
-constexpr double kLegPanel = 2.5;  // of u; 20 nodes integrate to rounding what is smooth over pi/2
-
-// Returns the azimuth between two places of a leg in which the integrand is smooth.
-double swept(const WormholeLeg& leg, double from, double to) {
-  const auto rate = [&leg](double u) {
-    const WormholeLeg::Place p = leg.at(u);
+// Returns the azimuth between two places of a leg.
+double swept(const WormholeLeg& leg, double low, double high) {
+  return along_leg(leg, low, high, [&leg](const WormholeLeg::Place& p) {
     return leg.impact() * p.rate / (p.r * p.r);
-  };
-  return LegRule::integrate(rate, from, to);
-}
-
-double swept_to(const WormholeLeg& leg, double start) {
-  const double panels = std::ceil(start / kLegPanel);
-  double sum = 0;
-  for (double k = 0; k < panels; ++k)
-    sum += swept(leg, start * (k / panels), start * ((k + 1) / panels));
-  return sum;
-}
-
-// Where the integrand is as good as exp(-u) the panels grow.
-double swept_beyond(const WormholeLeg& leg, double start) {
-  constexpr double kLost = 40;     // exp(-40) is nothing
-  constexpr double kGrowth = 2.2;  // three panels more
-  const double calm = leg.calm(), end = std::max(start, calm) + kLost;
-  double sum = 0, width = kLegPanel;
-  for (double u = start; u < end; u += width) {
-    if (u > calm + kLegPanel) width *= kGrowth;
-    sum += swept(leg, u, u + width);
-  }
-  return sum;
+  });
 }
 
 double cylinder_part(const Wormhole& w, const ThroatRay& ray, double l) {
@@ -100,15 +43,34 @@ double cylinder_part(const Wormhole& w, const ThroatRay& ray, double l) {
 }
 
 double dngr_azimuth(const Wormhole& w, const ThroatRay& ray, double l) {
+  constexpr double kLost = 40;  // exp(-40) is nothing
   const WormholeLeg leg(w, ray.b, ray.below);
-  // r - b = r (1 - sin(delta)) does not cancel this way.
-  const double start =
-      leg.parameter(w.beyond_mouth(l), ray.r * ray.cosine * ray.cosine / (1 + ray.b / ray.r));
-  const double out = swept_beyond(leg, start) + cylinder_part(w, ray, l);
-  return ray.inward && start > 0 ? out + 2 * swept_to(leg, start) : out;
+  const double start = ray.start(leg, w.beyond_mouth(l));
+  const double out =
+      swept(leg, start, std::max(start, leg.calm()) + kLost) + cylinder_part(w, ray, l);
+  return ray.inward ? out + 2 * swept(leg, 0, start) : out;
 }
 
 }  // namespace
+
+EdgeAngle edge_angle(const Wormhole& w, double l) {
+  const double above = w.above_throat(l), r = 1 + above;
+  return {1 / r, std::sqrt(above) * std::sqrt(2 + above) / r};
+}
+
+ThroatRay throat_ray(const Wormhole& w, double l, double offset) {
+  const EdgeAngle edge = edge_angle(w, l);
+  const double r = w.radius(l), sine = std::sin(offset / 2), cosine = std::cos(offset / 2);
+  ThroatRay ray{};
+  ray.r = r;
+  ray.b = r * (edge.sine * std::cos(offset) + edge.cosine * std::sin(offset));
+  ray.below = -2 * r * sine * (edge.cosine * cosine - edge.sine * sine);
+  ray.sine = ray.b / r;
+  ray.cosine = edge.cosine * std::cos(offset) - edge.sine * std::sin(offset);
+  ray.passes = offset < 0;
+  ray.inward = ray.passes || ray.cosine > 0;
+  return ray;
+}
 
 HalfAngle throat_edge(const Wormhole& wormhole, double l) {
   const EdgeAngle edge = edge_angle(wormhole, l);

@@ -62,7 +62,8 @@ BodyMotion motion_of(const Spacetime& spacetime, const Body& body, const M33d& s
                              body.null_time + double(now.null_time - start.null_time),
                              gamma_of(now.celerity),
                              now.celerity.x,
-                             normal * (now.r * now.celerity.z)};
+                             normal * (now.r * now.celerity.z),
+                             now.l};
           },
           first_proper_time(body), last_proper_time(spacetime, body)};
 }

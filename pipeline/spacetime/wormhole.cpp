@@ -48,9 +48,12 @@ double Wormhole::slope(double l) const {
 }
 
 double Wormhole::curvature(double l) const {
-  if (profile == Profile::kEllis) return std::pow(std::hypot(1, l), -3);
-  if (in_cylinder(l)) return 0;
-  const double x = 2 / pi * beyond_mouth(l) / lensing_mass();
+  return in_cylinder(l) ? 0 : curvature_beyond(beyond_mouth(l));
+}
+
+double Wormhole::curvature_beyond(double y) const {
+  if (profile == Profile::kEllis) return std::pow(std::hypot(1, y), -3);
+  const double x = 2 / pi * y / lensing_mass();
   return curvature_at_throat() / (1 + x * x);
 }
 

@@ -53,6 +53,7 @@ struct Wormhole {
   double radius(double l) const { return 1 + above_throat(l); }
   double slope(double l) const;
   double curvature(double l) const;
+  double curvature_beyond(double y) const;  // the last at |l| = a + y, from outside the cylinder
   // Returns d^2r/dl^2 next to the throat's widening, 1 or 4/(pi^2 m).  Light next to the throat's
   // edge has the azimuth -ln(offset)/sqrt(this).
   double curvature_at_throat() const;

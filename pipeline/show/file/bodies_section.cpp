@@ -29,6 +29,10 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
       if (r) body.trajectory = ChargedCircle{*hole, *r};
       return r.has_value();
     }
+    if (to.spacetime.is<Wormhole>()) {
+      way->fail("is a circular orbit about a hole; in a wormhole give a trajectory");
+      return false;
+    }
     const auto r = read_number(*way, s.range("r"));
     if (r) body.trajectory = CircularOrbit{*r};
     return r.has_value();
@@ -37,8 +41,8 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
     return false;
   // These keys choose the part of a trajectory that a segment shows, the rate of its clock or a
   // region.  A body has neither part nor clock, and it is in region I or comes from there.
-  for (const std::string_view key :
-       {"to_r", "to_leg", "to_tau_m", "orbits", "rate_m_per_s", "time_lapse", "pace", "region"})
+  for (const std::string_view key : {"to_r", "to_l", "to_leg", "to_tau_m", "orbits", "rate_m_per_s",
+                                     "time_lapse", "pace", "region"})
     if (const auto given = peek(*way, key)) {
       given->fail("is for the trajectories of segments");
       return false;
@@ -132,10 +136,10 @@ void read_elements(const Item& item, const Show& to, std::optional<double> year,
 
 // Returns V at kBodyMagnitudeDistance of a body with this absolute magnitude, which is that at 10
 // pc.  The two differ by 5 log10 of the ratio of the distances (the distance modulus).
-double near_magnitude(double absolute, double solar_masses) {
+double near_magnitude(double absolute, double seconds_per_m) {
   // A parsec is 648000/pi astronomical units (IAU 2015), of 149,597,870,700 m each.
   constexpr double kTenParsecs = 1.0292712503e9;  // light seconds
-  const double distance = kBodyMagnitudeDistance * kSecondsPerSolarMass * solar_masses;
+  const double distance = kBodyMagnitudeDistance * seconds_per_m;
   return absolute + 5 * std::log10(distance / kTenParsecs);
 }
 
@@ -147,7 +151,7 @@ void read_light(const Section& s, const Show& to, Body& body) {
   if (given)
     body.magnitude = magnitude == s.find("magnitude")
                          ? *given
-                         : near_magnitude(*given, to.spacetime.solar_masses().value_or(1));
+                         : near_magnitude(*given, to.spacetime.seconds_per_m());
   body.radius = s.given("radius").value_or(0);
 }
 
@@ -174,8 +178,8 @@ void check_body(const Body& body, const Spacetime& spacetime, const Item& light,
   const double r = low > horizon ? low : high, clear = r - horizon;
   const double radius = body.radius > 0 ? body.radius : radius_of_light(body);
   const std::string limit = fmt::format("{} (units of M)", short_number(clear));
-  const std::string reason = fmt::format("it moves at r = {} M, and the horizon is at {} M",
-                                         short_number(r), short_number(horizon));
+  std::string reason = "it moves at r = " + short_number(r);
+  if (horizon > 0) reason += " M, and the horizon is at " + short_number(horizon) + " M";
   if (!(radius < clear) && own_size)
     own_size->fail("must stay below " + limit + ", got " + as_written(*own_size) + ": " + reason);
   else if (!(radius < clear))
@@ -199,6 +203,8 @@ Body read_body(const std::string& name, const Item& item, const Show& to,
   body.name = name;
   const std::size_t problems = item.problems->count();
   if (const Item* elements = s.find("elements")) {
+    if (to.spacetime.is<Wormhole>())
+      elements->fail("is an orbit about a hole; in a wormhole give a trajectory");
     for (const std::string_view key :
          {"r", "trajectory", "begins_m", "inclination_deg", "node_deg", "azimuth_deg"})
       s.one_of({"elements", key});
@@ -226,8 +232,6 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
   const Item* list = show.find("bodies");
   if (list == nullptr) return bodies;
   if (to.spacetime.is_flat()) list->fail("need a black hole: give the show black_hole.mass_solar");
-  if (to.spacetime.is<Wormhole>())
-    list->fail("need a black hole: what moves in a wormhole is not drawn");
   if (!list->node.IsMap()) {
     list->fail("must be a map of names and bodies, e.g. {beacon: {r: 10}}, got " + kind_of(*list));
     return bodies;

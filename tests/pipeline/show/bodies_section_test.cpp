@@ -73,6 +73,22 @@ TEST_F(Bodies, GoTheirOwnWays) {
   EXPECT_EQ(target->body->name, "falls");
 }
 
+TEST_F(Bodies, InAWormholeMoveOnBothSides) {
+  const Show show = read(
+      "wormhole: {radius_km: 1}\n"
+      "bodies:\n  rests: {trajectory: {type: static, l: -3}}\n"
+      "  flies: {trajectory: {type: infall, from_l: 2, speed: 0.5}}\n"
+      "timeline: [{duration_s: 2, trajectory: {type: static, l: 9}}]\n");
+  ASSERT_EQ(show.bodies.size(), 2u);
+  const BodyMotion rests = motion_of(show.spacetime, show.bodies[0], M33d()),
+                   flies = motion_of(show.spacetime, show.bodies[1], M33d());
+  EXPECT_EQ(rests.at(5).l, -3);
+  EXPECT_EQ(rests.at(5).null_time, 5 - 3 + 3);  // v = t + l is 0 where it begins
+  // gamma dl/dt = -0.577 a radius of the throat's light time.
+  EXPECT_NEAR(flies.at(6).l, 2 - 6 * 0.5 / std::sqrt(0.75), 1e-9);
+  EXPECT_NEAR(flies.at(6).radial, -0.5 / std::sqrt(0.75), 1e-12);
+}
+
 TEST_F(Bodies, NearAChargeEndAtTheInnerHorizon) {
   const Show show = with(
       "begins_year: 2010\nbodies:\n  circles: {r: 2.7}\n"
@@ -178,7 +194,12 @@ TEST_F(BodyMistakes, AreToldWithTheirPlace) {
         "3:17: bodies.a.r must exceed 2 (units of M), got 2"},
        {"wormhole: {radius_km: 1}\ntimeline: [{duration_s: 2, trajectory: {type: static, l: 9}}]\n"
         "bodies: {a: {r: 9}}\n",
-        "3:9: bodies need a black hole: what moves in a wormhole is not drawn"}});
+        "3:17: bodies.a.r is a circular orbit about a hole; in a wormhole give a trajectory"},
+       {"wormhole: {radius_km: 1}\nbegins_year: 1\n"
+        "timeline: [{duration_s: 2, trajectory: {type: static, l: 9}}]\n"
+        "bodies: {a: {elements: " +
+            kOrbit + "}}\n",
+        "4:24: bodies.a.elements is an orbit about a hole; in a wormhole give a trajectory"}});
   EXPECT_NE(complaint(kShow + "bodies: {a: {r: 9, size: 3}}\n").find("unknown key"),
             std::string::npos);
 }
