@@ -45,6 +45,7 @@ struct WormholeShape {
 // Returns the angle between the edge of the throat and its middle, for an observer at l >= 0.
 Real50 throat_angle(const WormholeShape& shape, const Real50& l);
 // Measured: within 1e-17, relative, of every row of tests/reference/wormhole_rays.csv.
-SweptAzimuth reference_wormhole_ray(const WormholeShape& shape, const Real50& l, const Real50& delta);
+SweptAzimuth reference_wormhole_ray(const WormholeShape& shape, const Real50& l,
+                                    const Real50& delta);
 
 }  // namespace domefall

@@ -155,8 +155,7 @@ Tetrad tetrad_of(Region region, Against against) {
   if (region == Region::kIV) return Tetrad::kOutgoing;
   if (region == Region::kII) return Tetrad::kRain;
   const bool out = against == Against::kOutgoing;
-  if (region == Region::kI || region == Region::kV)
-    return out ? Tetrad::kOutgoing : Tetrad::kRain;
+  if (region == Region::kI || region == Region::kV) return out ? Tetrad::kOutgoing : Tetrad::kRain;
   return out ? Tetrad::kOutgoingToThree : Tetrad::kRainOfThree;
 }
 

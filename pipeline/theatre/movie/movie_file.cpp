@@ -56,7 +56,7 @@ Arguments ffmpeg_arguments(const MoviePlan& plan, const TextFile& subtitles,
   // The file of chapters is the last input.  Without one those of a sound file do not count either.
   if (chapters) append(all, {"-f", "ffmetadata", "-i", "file:" + chapters->path()});
   append(all, {"-map_chapters",
-                  chapters ? fmt::to_string(1 + plan.sound.files.size()) : std::string("-1")});
+               chapters ? fmt::to_string(1 + plan.sound.files.size()) : std::string("-1")});
   append(all, sound_options(plan.sound, plan.first, plan.count, plan.rate));
   Arguments video = video_options(plan.preset, plan.frames, plan.rate, plan.tags,
                                   subtitles ? subtitles->path() : std::string());
@@ -72,7 +72,7 @@ Arguments movie_arguments(const MoviePlan& plan, const TextFile& subtitles,
                           const TextFile& chapters, int file) {
   Arguments output = time_code(plan);
   append(output, {"-metadata", "title=" + plan.title, "-movflags", "+faststart", "-f",
-                     std::string(format_of(plan.preset)), "file:" + path_of_descriptor(file)});
+                  std::string(format_of(plan.preset)), "file:" + path_of_descriptor(file)});
   return ffmpeg_arguments(plan, subtitles, chapters, output);
 }
 
@@ -254,11 +254,10 @@ void MovieFile::put_levels(const LightLevels& levels) const {
 void MovieFile::count_frames(const ChildOutcome& made) const {
   const bool is_told = !flat_;
   Arguments command{"ffprobe", "-v", "error", "-select_streams", "v:0"};
-  append(command, is_told
-                         ? Arguments{"-show_entries", "stream=nb_frames"}
-                         : Arguments{"-count_packets", "-show_entries", "stream=nb_read_packets"});
+  append(command, is_told ? Arguments{"-show_entries", "stream=nb_frames"}
+                          : Arguments{"-count_packets", "-show_entries", "stream=nb_read_packets"});
   append(command, {"-of", "default=noprint_wrappers=1:nokey=1", "-i",
-                      "file:" + path_of_descriptor(file_.descriptor())});
+                   "file:" + path_of_descriptor(file_.descriptor())});
   ChildProgram probe(std::move(command), {file_.descriptor()}, kPackage);
   const ChildOutcome outcome = probe.wait();
   std::string found = probe.output();
@@ -308,7 +307,7 @@ std::string sound_for_browser(const Show& show) {
   Arguments all{"ffmpeg", "-nostdin", "-hide_banner", "-v", "error", "-y"};
   append(all, sound_inputs(sound));
   append(all, {"-filter_complex", filter, "-map", "[stereo]", "-c:a", "aac", "-b:a", "160k",
-                  "-movflags", "+faststart", "-f", "mp4", "file:" + made.path()});
+               "-movflags", "+faststart", "-f", "mp4", "file:" + made.path()});
   const ChildOutcome outcome = ChildProgram(all, {made.number()}, kPackage).wait();
   if (!outcome.good())
     throw TemporaryError("the sound cannot be heard here: ffmpeg " + outcome.text());
