@@ -188,7 +188,7 @@ template <class View>
 std::optional<BodyImage> body_image(const View& view, double null_time, const BodyMotion& motion,
                                     int order, double radius) {
   constexpr int kSteps = 200;
-  constexpr double kEnough = 1e-10;
+  constexpr double kEnough = 1e-10, kUsable = 1e-6;  // of r
   const Retardation<View> retardation(view, null_time, motion, order, radius);
   // The instant lies between one whose light has come before and one whose light has yet to come.
   // Until both are found the steps grow.
@@ -204,9 +204,12 @@ std::optional<BodyImage> body_image(const View& view, double null_time, const Bo
     const Guess guess = retardation.guess(tau);
     std::optional<double> next;
     if (guess.light) {
-      if (!best || std::abs(guess.light->late) < std::abs(best->second.light->late))
-        best = {tau, guess};
-      if (std::abs(guess.light->late) <= kEnough * guess.body.r) break;
+      const double late = std::abs(guess.light->late),
+                   least = best ? std::abs(best->second.light->late) : HUGE_VAL;
+      if (late < least) best = {tau, guess};
+      // The times of light that has gone around often are less exact.
+      const bool settled = least <= kUsable * guess.body.r && late > least / 2;
+      if (late <= kEnough * guess.body.r || settled) break;
       // The phase of light is the same along a ray: E dt = nu dtau.
       next = tau + guess.light->late * guess.light->place.energy /
                        emitted(view, guess.body, *guess.light);
@@ -224,7 +227,7 @@ std::optional<BodyImage> body_image(const View& view, double null_time, const Bo
   const auto& [at, guess] = *best;
   const Light& light = *guess.light;
   const double ratio = 1 / emitted(view, guess.body, light);
-  if (!(std::abs(light.late) <= 1e-6 * guess.body.r)) return std::nullopt;
+  if (!(std::abs(light.late) <= kUsable * guess.body.r)) return std::nullopt;
   return BodyImage{seen_direction(light, is_outgoing(view)),
                    ratio,
                    guess.body.r,

@@ -103,7 +103,7 @@ TEST(BrakedFlight, NearAChargeMovesAsItsEquationSays) {
     const ChargedHole hole(1, q);
     const BrakedFlight flight(c.from_r, c.stop_r, c.speed, hole);
     const auto f = [q2 = double(q * q)](double r) { return 1 - 2 / r + q2 / (r * r); };
-    const auto rapidity = [&](double r) {
+    const auto rapidity = [&c = c](double r) {
       return std::atanh(c.speed) * std::pow((r - c.stop_r) / (c.from_r - c.stop_r), 2.0 / 3);
     };
     for (const double r : {c.from_r, 0.7 * c.from_r, 1.5 * c.stop_r, 1.01 * c.stop_r}) {
