@@ -55,7 +55,7 @@ std::unique_ptr<const PlaneRays> StraightLens::plane(const PlaneRings& rings,
 }
 
 void StraightLens::rays(const DirectionBatch& directions, int count, ViewRayBatch& rays) const {
-  straight_rays(sky_from_tetrad_, shift_, directions, count, rays);
+  straight_rays(axes_, shift_, directions, count, rays);
   std::fill_n(rays.sky.begin(), count, sky_);
 }
 
@@ -63,12 +63,12 @@ ViewRay StraightLens::ray(const V3d& direction) const {
   ViewRay ray;
   ray.sky = sky_;
   ray.known = true;
-  ray.sky_direction = apply(sky_from_tetrad_, direction);
+  ray.sky_direction = apply(axes_, direction);
   ray.frequency_ratio = shift_;
   ray.scale_along = ray.scale_across = 1;
   ray.axis =
       direction.cross(std::abs(direction.x) < 0.6 ? V3d(1, 0, 0) : V3d(0, 1, 0)).normalized();
-  ray.along = apply(sky_from_tetrad_, ray.axis);
+  ray.along = apply(axes_, ray.axis);
   return ray;
 }
 

@@ -16,7 +16,7 @@ class StraightLens : public Lens {
         r_(observer.r),
         tetrad_(observer.tetrad),
         sky_(own_sky(observer)),
-        sky_from_tetrad_(observer.sky_from_tetrad),
+        axes_(sky_axes(observer, sky_)),
         frame_(frame),
         shift_(shift) {}
 
@@ -34,7 +34,7 @@ class StraightLens : public Lens {
   double r_;
   Tetrad tetrad_;
   SkyRegion sky_;
-  M33d sky_from_tetrad_;
+  M33d axes_;  // of that sky
   Celerity<ReferenceTetrad> frame_;
   double shift_;
 };

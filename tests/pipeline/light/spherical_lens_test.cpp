@@ -179,6 +179,22 @@ TEST(SphericalLens, SeesPointsWhereRaysComeFromThem) {
   }
 }
 
+// Without lensing stars and sky stand alike, on the sky of the observer's side.
+TEST(StraightLens, OfAWormholeHasTheSkyOfItsSideTheRightWayRound) {
+  std::mt19937_64 random(6);
+  for (const double l : {3.0, -3.0}) {
+    const ObserverState o = in_wormhole({1, Wormhole::Profile::kDngr, 1, 0.5}, l);
+    const SkyRegion sky = l < 0 ? SkyRegion::kIII : SkyRegion::kI;
+    const auto lens = LensStore().lens(o, {}, StraightLight{{}, 1});
+    const V3d source = random_direction(random);
+    const auto points = lens->points(sky, std::nullopt);
+    ASSERT_TRUE(points) << l;
+    const ViewRay ray = lens->ray(points->image(source, 0, 0).direction.v);
+    EXPECT_EQ(ray.sky, sky) << l;
+    EXPECT_LT((ray.sky_direction - apply(sky_axes(o, sky), source)).length(), 1e-15) << l;
+  }
+}
+
 // In a cylinder of ten radii light winds dozens of times, and what is seen beside the edge after
 // many half turns is nearly as large as what is seen after few.
 TEST(SphericalLens, FindsPointsAfterManyHalfTurnsInALongCylinder) {
