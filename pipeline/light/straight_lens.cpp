@@ -69,6 +69,7 @@ ViewRay StraightLens::ray(const V3d& direction) const {
   ray.axis =
       direction.cross(std::abs(direction.x) < 0.6 ? V3d(1, 0, 0) : V3d(0, 1, 0)).normalized();
   ray.along = apply(axes_, ray.axis);
+  ray.mirrored = mirrored_;
   return ray;
 }
 

