@@ -37,8 +37,9 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   const PerSky<bool> seen = seen_skies(o);
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
-  // An observer who falls from region I receives its light on the horizon itself too.
-  plan.disc = show.disc && state.settings.disc_opacity > 0 && !is_flat(o) &&
+  // An observer who falls from region I receives its light on the horizon itself too.  In a universe
+  // further on another region I has no disc.
+  plan.disc = show.disc && state.settings.disc_opacity > 0 && !is_flat(o) && o.universe == 0 &&
               (o.region == Region::kI || (o.region == Region::kII && seen[SkyRegion::kI]));
   const auto add = [&](SkyRegion which) {
     plan.sky[which] = plan_sky(show.sky[which], background_of(show, state.segment, which),

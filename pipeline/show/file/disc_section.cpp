@@ -77,8 +77,12 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   if (to.spacetime.is_flat()) item->fail("needs a black hole: give the show black_hole.mass_solar");
   if (to.spacetime.is<Wormhole>()) item->fail("needs a black hole: nothing circles a wormhole");
   Disc disc;
-  if (const auto* hole = std::get_if<ChargedHole>(&to.spacetime.kind()))
-    disc.orbits = GasOrbits(*hole);
+  if (const auto* hole = std::get_if<ChargedHole>(&to.spacetime.kind())) {
+    if (hole->is_naked())
+      item->fail("needs a hole with a horizon: gas about a naked singularity is not drawn");
+    else
+      disc.orbits = GasOrbits(*hole);
+  }
   disc.plunging = s.flag("plunging");
   read_radii(s, disc);
   const OrbitPlane plane = read_orbit_plane(s, to);

@@ -76,6 +76,22 @@ TEST(Renderer, BuildsNoTableInFlatSpaceAndNoneForBlackSkies) {
       << "region III is not seen from outside";
 }
 
+// The disc is that of the first universe.
+TEST(Renderer, LeavesTheDiscBehindInTheNextUniverse) {
+  const ChargedHole hole(1, 0.9L);
+  Show show = show_of(ChargedOrbit::falling(hole, 9, 0, 0), Domemaster{32});
+  show.spacetime = hole;
+  show.disc = Disc{};
+  show.disc->orbits = GasOrbits(hole);
+  show.timeline[0].timing = {0, 24};
+  EXPECT_TRUE(plan_frame(show, frame_state(show, 0)).disc);
+  const FrameState beyond = frame_state(show, 29);
+  EXPECT_EQ(beyond.observer.universe, 1);
+  EXPECT_EQ(beyond.observer.region, Region::kI);
+  EXPECT_FALSE(plan_frame(show, beyond).disc);
+  EXPECT_NO_THROW(Renderer(show, 1).render(beyond));
+}
+
 TEST(Renderer, MakesOneTableForACameraThatStandsStill) {
   Show show = starry(show_of(StaticObserver{10}, Domemaster{64}));
   Renderer renderer(show, 1);

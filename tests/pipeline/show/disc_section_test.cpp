@@ -127,6 +127,8 @@ TEST_F(DiscMistakes, NearAChargeAreNamedWithItsBounds) {
         "3:33: disc.inner_r must be at least 1 (units of M), got 0.5"},
        {charge + "disc: {pattern: {type: spot, r: 3}}\n",
         "3:33: disc.pattern.r must be at least 4 (units of M), got 3"},
+       {"black_hole: {mass_solar: 1, charge: 1.1, naked: true}\n" + timeline + "disc: {}\n",
+        "3:7: disc needs a hole with a horizon: gas about a naked singularity is not drawn"},
        {"wormhole: {radius_km: 1}\ntimeline: [{duration_s: 2, trajectory: {type: static, l: 9}}]\n"
         "disc: {}\n",
         "3:7: disc needs a black hole: nothing circles a wormhole"}});
