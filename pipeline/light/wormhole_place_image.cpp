@@ -143,7 +143,12 @@ std::optional<Way> solve(const WormholeFan& fan, double psi, double sign, double
   const auto excess = [&](double t) {
     return azimuth(fan.way(sign * std::min(std::exp(t), reach), meeting)) - psi;
   };
-  const double low = kLeast, high = std::log(reach), at_low = excess(low), at_high = excess(high);
+  // Most light is not next to the edge, where the azimuth takes the longest.
+  double high = std::log(reach), at_high = excess(high), low = high, at_low = at_high;
+  for (double step = 1; at_low * at_high > 0 && low > kLeast; step *= 2) {
+    high = low, at_high = at_low;
+    low = std::max(low - step, kLeast), at_low = excess(low);
+  }
   if (!(at_low * at_high <= 0)) return std::nullopt;
   std::uintmax_t steps = 100;
   const auto [from, to] = boost::math::tools::toms748_solve(

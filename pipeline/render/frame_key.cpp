@@ -208,10 +208,10 @@ std::string FrameKeys::instant(const FrameState& state) const {
   const SkyBackground& singularity = background_of(show_, state.segment, SkyRegion::kIV);
   if (!show_.bodies.empty()) {
     digest.add("bodies").add(rounded_for_key(o.null_time));
-    // Trails of bodies depend on how far the observer goes meanwhile.
+    // Trails of bodies depend on how time goes meanwhile.
     for (const double frames : {-kWindow, kWindow}) {
       const ObserverState then = observer_after(show_, state, frames, CameraMotion::kStays);
-      digest.add(rounded_for_key(then.r)).add(rounded_for_key(then.null_time));
+      digest.add(rounded_for_key(then.null_time));
     }
     for (const double v : {state.sky_turn.x, state.sky_turn.y, state.sky_turn.z}) digest.add(v);
   }

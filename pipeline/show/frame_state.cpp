@@ -163,11 +163,19 @@ ObserverState observer_after(const Show& show, const FrameState& state, double f
                end = begin + segment_of(show, state.segment).duration_s;
   const double t = std::clamp(state.show_time_s + frames / show.frames_per_second, begin, end);
   ObserverState observer = observer_at(show, state.segment, part_at(show, state.segment, t));
-  observer.tetrad_from_camera =
-      camera == CameraMotion::kStays
-          ? state.observer.tetrad_from_camera
-          : camera_axes_at(show, state.segment, t, state.projection, observer);
-  return observer;
+  if (camera == CameraMotion::kMoves) {
+    observer.tetrad_from_camera =
+        camera_axes_at(show, state.segment, t, state.projection, observer);
+    return observer;
+  }
+  const ObserverState& now = state.observer;
+  observer.tetrad_from_camera = now.tetrad_from_camera;
+  // Null times of two tetrads or universes cannot be compared.
+  if (observer.tetrad != now.tetrad || observer.universe != now.universe) return observer;
+  ObserverState staying = now;
+  staying.sky_from_tetrad = observer.sky_from_tetrad;
+  staying.null_time = observer.null_time - (observer.l - now.l);
+  return staying;
 }
 
 SegmentSpan segment_span(const Show& show, const FrameState& state) {

@@ -61,7 +61,8 @@ FrameState frame_state(const Show& show, int frame);
 // of view of their own where it has a variable one, and everything else of the show.
 std::vector<FrameState> exposure_states(const Show& show, const FrameState& state, int count);
 
-// A CameraMotion says whether a camera moves on with time or keeps its place in the view.
+// A CameraMotion says whether a camera moves on with time, or stays as it is: at its r or l, with its
+// speed and its axes, while the sky turns and time goes on as they do for the observer.
 enum class CameraMotion { kMoves, kStays };
 
 // Returns the observer of a state's segment so many frames after the state's instant, or before it
