@@ -111,7 +111,8 @@ WormholeFall WormholeFall::with_celerity(const Wormhole& wormhole, double from_l
                             short_number(from_l));
   if (impact == 1)
     throw std::domain_error(
-        "impact_parameter must not be 1 (radii of the throat): with it the path circles for ever");
+        "impact_parameter must not be 1 (radii of the throat), as that of a throw around the "
+        "throat is: with it the path circles for ever");
   const double r = wormhole.radius(from_l);
   if (!(impact <= r))
     throw std::domain_error(fmt::format(

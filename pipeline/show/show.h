@@ -241,6 +241,7 @@ inline constexpr std::pair<std::string_view, Amplification> kAmplifications[] = 
 struct MarkerEvent {
   std::optional<double> r;  // M
   std::optional<Leg> leg{};
+  std::optional<double> l{};  // of a wormhole, instead of r
 };
 
 // A Marker is an instant of the show that bears a name.

@@ -37,7 +37,8 @@ std::array<StateCell, kStateColumns.size()> state_cells(const FrameState& state)
           all(z.y),
           all(z.z),
           all(o.null_time),
-          o.universe};
+          o.universe,
+          all(o.l)};
 }
 
 }  // namespace domefall

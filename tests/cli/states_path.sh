@@ -75,6 +75,6 @@ timeline: [{duration_s: 4, trajectory: {type: path, file: $part.csv}}]
 SHOW
 done
 exits 2 "$DOMEFALL" states whole.yaml
-says 'whole.csv:47: the tetrad changes; a path has one, give each part a file and a segment'
+says 'whole.csv:48: the tetrad changes; a path has one, give each part a file and a segment'
 exits 0 "$DOMEFALL" states out.yaml
 exits 0 "$DOMEFALL" states in.yaml

@@ -48,6 +48,10 @@ Json json_of(const SegmentSurvey& s, const Spacetime& spacetime) {
                {"from_r", rounded_json(s.r_begin)},
                {"to_r", rounded_json(s.r_end)},
                {"closest", flat ? Json() : extreme(s.closest)}};
+  if (spacetime.is<Wormhole>()) {
+    json["from_l"] = rounded_json(s.l_begin);
+    json["to_l"] = rounded_json(s.l_end);
+  }
   if (!flat) {
     json["regions"] = region_names(s.visits);
     json["proper_time_m"] = rounded_json(s.proper_time);

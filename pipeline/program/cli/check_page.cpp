@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "pipeline/base/frame_rate.h"
 #include "pipeline/base/ratio.h"
@@ -61,15 +64,20 @@ class Page {
       line("graded for", r_.display + ", " + r_.view);
     if (const std::string note = ocio_note(show_.grade); !note.empty() && show_.output.graded)
       line("", note);
-    if (const auto mass = show_.spacetime.solar_masses())
+    if (const auto mass = show_.spacetime.solar_masses()) {
       line("black hole", fmt::format("{:.6g} solar masses: 1 M lasts {}", *mass,
                                      duration_text(show_.spacetime.seconds_per_m())));
-    else if (const auto* wormhole = std::get_if<Wormhole>(&show_.spacetime.kind()))
+    } else if (const auto* wormhole = std::get_if<Wormhole>(&show_.spacetime.kind())) {
       line("wormhole",
            fmt::format("{:.6g} km radius of its throat, which light takes {} for",
                        wormhole->radius_km, duration_text(show_.spacetime.seconds_per_m())));
-    else
+      line("", wormhole->profile == Wormhole::Profile::kEllis
+                   ? "profile ellis"
+                   : fmt::format("profile dngr, length {:.6g} and lensing width {:.6g} radii",
+                                 wormhole->length, wormhole->lensing_width));
+    } else {
       line("black hole", "none: flat space");
+    }
     const auto* hole = std::get_if<ChargedHole>(&show_.spacetime.kind());
     if (hole && hole->is_naked())
       line("charge",
@@ -147,10 +155,13 @@ class Page {
          fmt::format("{}, {:.6g} s to {:.6g} s", s.type, s.begin_s, s.end_s));
     std::string text = "flat space; ";
     if (!show_.spacetime.is_flat()) {
-      text = fmt::format("r = {:.6g} {} to {:.6g} {}", s.r_begin, unit(), s.r_end, unit());
+      const bool wormhole = show_.spacetime.is<Wormhole>();
+      text = wormhole
+                 ? fmt::format("l = {:.6g} {} to {:.6g} {}", s.l_begin, unit(), s.l_end, unit())
+                 : fmt::format("r = {:.6g} {} to {:.6g} {}", s.r_begin, unit(), s.r_end, unit());
       if (s.closest.value < std::min(s.r_begin, s.r_end) * (1 - 1e-6))
-        text += fmt::format(", closest {:.6g} {} at {:.5g} s", s.closest.value, unit(),
-                            s.closest.time_s);
+        text += fmt::format(", closest {}{:.6g} {} at {:.5g} s", wormhole ? "r = " : "",
+                            s.closest.value, unit(), s.closest.time_s);
       line("", text + "; region " + regions_text(s.visits));
       text.clear();
     }
@@ -199,7 +210,7 @@ class Page {
     black();
     if (const auto& e = r_.survey.closest)
       line("closest", fmt::format("r = {:.6g} {}, ", e->value, unit()) + place(*e));
-    if (const auto& e = r_.survey.fastest) {
+    if (const auto& e = r_.survey.fastest; e && e->value > 1e-12) {
       const double gamma = std::hypot(1.0, e->value);
       line("fastest",
            fmt::format("{:.6g} of light's speed (Lorentz factor {:.5g}) against who is at rest "
@@ -274,18 +285,28 @@ class Page {
       text_ += "\nno warnings\n";
       return;
     }
+    // An orbit that passes through for ever warns of the same at each passage.
+    std::vector<std::pair<ShowWarning, int>> kinds;
+    for (const ShowWarning& w : r_.warnings) {
+      const auto same =
+          std::ranges::find(kinds, w.text, [](const auto& k) { return k.first.text; });
+      if (same == kinds.end())
+        kinds.emplace_back(w, 1);
+      else
+        ++same->second;
+    }
     constexpr std::size_t kMost = 20;
     text_ += "\nwarnings\n";
-    for (std::size_t k = 0; k < r_.warnings.size() && k < kMost; ++k) {
-      const ShowWarning& w = r_.warnings[k];
+    for (std::size_t k = 0; k < kinds.size() && k < kMost; ++k) {
+      const auto& [w, times] = kinds[k];
       if (w.segment == kWholeShow)
-        text_ += fmt::format("the whole show: {}\n", printable(w.text));
+        text_ += "the whole show: ";
       else
-        text_ += fmt::format("{:8.5g} s, frame {}, segment {}: {}\n", w.time_s, w.frame,
-                             w.segment + 1, printable(w.text));
+        text_ += fmt::format("{:8.5g} s, frame {}, segment {}{}: ", w.time_s, w.frame,
+                             w.segment + 1, times > 1 ? fmt::format(", first of {}", times) : "");
+      text_ += printable(w.text) + "\n";
     }
-    if (r_.warnings.size() > kMost)
-      text_ += fmt::format("  and {} more\n", r_.warnings.size() - kMost);
+    if (kinds.size() > kMost) text_ += fmt::format("  and {} more\n", kinds.size() - kMost);
   }
 
   const CheckReport& r_;

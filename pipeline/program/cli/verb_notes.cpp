@@ -134,12 +134,16 @@ const std::vector<VerbNotes> kNotes{
      "in time, and null_time the place's time v less the observer's (u for outgoing\n"
      "and T_IV; M), where v = t + r + 2 ln|r/2 - 1| and u = t - r - 2 ln|r/2 - 1|.\n"
      "Both are empty where the ray has ended.\n"
-     "Near a charge (q = charge M, at most 1 for a black hole) the observer moves as\n"
+     "Near a charge (q = charge M, above 1 a naked singularity) the observer moves as\n"
      "the tetrad T of l + n/2, which is regular on the horizons that it falls through;\n"
      "theta is his place and eta the light's direction about -R, from Theta to Phi.\n"
      "The answer is the origin (I, III, H for the past horizon, B for nowhere; beyond,\n"
      "for H: E for an earlier universe's sky), the place on that sky, shift,\n"
-     "amplification, turns in theta, and Mino's time, by the exact integral.",
+     "amplification, turns in theta, and Mino's time, by the exact integral.\n"
+     "Edges there are silhouette, inner and region3.\n"
+     "In a wormhole (profile ellis or dngr; its radius rho, half length a, m of its\n"
+     "lensing width and the place l in one unit; edge throat) the observer is at rest,\n"
+     "and the origin own or other, by the side of the throat.",
      {{"domefall trace --table rays.csv --method exact >traced.csv", "by elliptic integrals"}},
      "accuracy.md"},
     {"report",

@@ -74,8 +74,12 @@ void print_effects(const Effects& effects, const ViewRay& ray, double width) {
 
 void print_text(const Probed& p) {
   const ObserverState& observer = p.state.observer;
-  fmt::print("observer     region {}, r = {:.9g} M\n",
-             region_name(observer.region, observer.universe), observer.r);
+  const std::string region = region_name(observer.region, observer.universe);
+  if (observer.spacetime.is<Wormhole>())
+    fmt::print("observer     region {}, l = {:.9g}, r = {:.9g} radii of the throat\n", region,
+               observer.l, observer.r);
+  else
+    fmt::print("observer     region {}, r = {:.9g} M\n", region, observer.r);
   if (!p.inside()) fmt::print("pixel        outside the dome\n");
   for (const std::string& title : p.titles) fmt::print("title        {}\n", printable(title));
   for (const DiscAtPixel& disc : p.disc)
@@ -169,6 +173,7 @@ void print_probe_json(const Probed& p) {
                {"region",
                 is_flat(observer) ? Json() : Json(region_name(observer.region, observer.universe))},
                {"r", observer.r},
+               {"l", observer.l},
                {"sky", p.ray.known ? Json(name_of(p.ray.sky)) : Json()},
                {"direction", {to.x, to.y, to.z}},
                {"ra_deg", at.ra_deg},

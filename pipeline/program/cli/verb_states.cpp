@@ -46,8 +46,10 @@ void print_csv(const Show& show, const std::vector<int>& frames) {
       "in the boosted"
       " (R, Theta, Phi)\n"
       "# azimuth_deg: swept in the planes of its orbits since the start of the show\n"
-      "# null_time in M: v = t + r* where the tetrad is rain, u = t - r* where it is outgoing\n"
+      "# null_time in M: v = t + r* where the tetrad is rain, u = t - r* where it is outgoing, "
+      "t + l in a wormhole\n"
       "# universe: of those that follow each other through a charged hole, from 0\n"
+      "# l: the place along a wormhole, 0 elsewhere; there M stands for the radius of the throat\n"
       "{}\n",
       fmt::join(kStateColumns, ","));
   std::fputs(head.c_str(), stdout);

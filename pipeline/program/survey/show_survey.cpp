@@ -94,7 +94,9 @@ class SampledPath {
     const auto* hole = std::get_if<ChargedHole>(&spacetime_.kind());
     if (!hole || hole->is_naked()) return;
     std::vector<ProperTime> crossed;
-    for (const double r : {hole->horizon(), hole->inner_horizon()})
+    // An extremal hole has nothing between its horizons.
+    const double outer = hole->horizon(), inner = hole->inner_horizon();
+    for (const double r : inner < outer ? std::vector{outer, inner} : std::vector{outer})
       for (const Leg leg : {Leg::kInward, Leg::kOutward}) {
         auto tau = time_at(segment_.trajectory, r, leg, begin);
         for (; tau && *tau < end && crossed.size() < kMostSurveySamples;
@@ -138,8 +140,10 @@ SegmentSurvey survey_segment(const Show& show, int k, double begin_s) {
   SegmentSurvey s;
   s.type = segment.type;
   s.begin_s = begin_s, s.end_s = begin_s + segment.duration_s, s.dissolve_s = segment.dissolve_s;
-  s.r_begin = point_at(segment.trajectory, timing.tau_begin).r;
-  s.r_end = point_at(segment.trajectory, timing.tau_end).r;
+  const OrbitPoint begin = point_at(segment.trajectory, timing.tau_begin),
+                   end = point_at(segment.trajectory, timing.tau_end);
+  s.r_begin = begin.r, s.r_end = end.r;
+  s.l_begin = begin.l, s.l_end = end.l;
   const auto [tau, r] = path.closest();
   s.closest = {r, begin_s + segment.duration_s * part_of(segment, tau), 0, k};
   s.closest.frame = frame_at(show, s.closest.time_s);

@@ -35,6 +35,7 @@ struct SegmentSurvey {
   // Radii are in units of M, and infinite in flat space.  `closest` may lie between two frames: the
   // turning points of an orbit are sought to 1e-7 of its proper time.
   double r_begin = kFlatSpace, r_end = kFlatSpace;
+  double l_begin = 0, l_end = 0;  // in a wormhole
   Extreme closest;
   std::vector<Visit> visits;  // in their order
   PerSky<bool> skies;         // those of exteriors that are seen

@@ -37,7 +37,8 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
     if (r) body.trajectory = CircularOrbit{*r};
     return r.has_value();
   }
-  if (const auto type = peek(*way, "type"); type && !read_choice(*type, trajectories_of_bodies()))
+  if (const auto type = peek(*way, "type");
+      type && !read_choice(*type, trajectories_of_bodies(to.spacetime)))
     return false;
   // These keys choose the part of a trajectory that a segment shows, the rate of its clock or a
   // region.  A body has neither part nor clock, and it is in region I or comes from there.
@@ -55,6 +56,10 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
   if (!read) return false;
   if (read->placement.mirrored || read->placement.turn != 0) {
     way->fail("leaves the body's plane, which inclination_deg and node_deg give");
+    return false;
+  }
+  if (is_within_inner_horizon(point_at(read->trajectory, read->timing.tau_begin).region)) {
+    way->fail("begins within the inner horizon; bodies begin outside the hole");
     return false;
   }
   body.trajectory = read->trajectory;
@@ -177,7 +182,9 @@ void check_body(const Body& body, const Spacetime& spacetime, const Item& light,
   const auto [low, high] = reach(body.trajectory);
   const double r = low > horizon ? low : high, clear = r - horizon;
   const double radius = body.radius > 0 ? body.radius : radius_of_light(body);
-  const std::string limit = fmt::format("{} (units of M)", short_number(clear));
+  const std::string limit =
+      fmt::format("{} ({})", short_number(clear),
+                  spacetime.is<Wormhole>() ? "radii of the throat" : "units of M");
   std::string reason = "it moves at r = " + short_number(r);
   if (horizon > 0) reason += " M, and the horizon is at " + short_number(horizon) + " M";
   if (!(radius < clear) && own_size)

@@ -24,8 +24,9 @@ constexpr std::string_view kRows = R"(
 | `fade_in_s`, `fade_out_s` | at least 0: seconds in which the show comes out of black at its start, and sinks to black at its end | [0] |
 | `timeline` | the list of segments, below | required |
 ## marker
-| `r` | 1e-6 to 1e9 M: the event is the first instant at which the observer is there | required |
-| `leg` | `inward` or `outward`: the first one at which r falls, or grows, there | the first of either |
+| `r` | 1e-6 to 1e9 M: the event is the first instant at which the observer is there | one of the two |
+| `l` | -1e9 to 1e9 radii of the throat: the same in a wormhole, whose sides l tells apart | |
+| `leg` | `inward` or `outward`: the first one at which r, or l, falls or grows there | the first of either |
 ## black_hole
 | `mass_solar` | 0 to 1e13 solar masses; 0 is flat space: from 1e-20 on, or 0 for no hole | [0] |
 | `charge` | 0 to 100: its electric charge in units of its mass, [below](#a-charged-hole); above 1 with | [0] |
@@ -119,7 +120,7 @@ constexpr std::string_view kRows = R"(
 | `l` | -1e9 to 1e9 radii of the throat: the distance from the middle of the throat, negative beyond it | required |
 ## circular in a wormhole
 | `l` | -1e9 to 1e9 radii of the throat: where it circles, by engines | required |
-| `speed` | 0 to below 1 speed of light = 1: against what is at rest | required |
+| `speed` | above 0, below 1 speed of light = 1: against what is at rest | required |
 | `orbits` | 0 to 1e6 revolutions: how many orbits in the segment | |
 ## infall in a wormhole
 | `from_l` | -1e9 to 1e9 radii of the throat: where the segment begins | required |

@@ -13,11 +13,23 @@ namespace domefall {
 namespace {
 
 constexpr int kHalvings = 60;
-constexpr double kAtEnds = 1e-9;  // of r at the ends of segments, as a part of it
+constexpr double kAtEnds = 1e-9;  // of r or l at the ends of segments, as a part of it
 
 std::string leg_text(std::optional<Leg> leg) {
   if (!leg) return "";
   return *leg == Leg::kInward ? " on its way inward" : " on its way outward";
+}
+
+// Says whether an event is where r, or l, has some value.
+bool is_at_place(const MarkerEvent& event) { return event.r || event.l; }
+double place_of(const MarkerEvent& event) { return event.l ? *event.l : *event.r; }
+double place_of(const MarkerEvent& event, const OrbitPoint& point) {
+  return event.l ? point.l : point.r;
+}
+// Says whether a place is the event's but for rounding.
+bool is_at(const MarkerEvent& event, double place) {
+  const double wanted = place_of(event), size = event.l ? std::max(1.0, std::abs(wanted)) : wanted;
+  return std::abs(place - wanted) <= kAtEnds * size;
 }
 
 bool is_to_come(const Marker& marker) { return marker.event && std::isnan(marker.at_s); }
@@ -35,24 +47,27 @@ class MarkedEvents::Way {
 
   int steps() const { return steps_; }
   double part(int step) const { return std::clamp(static_cast<double>(step) / steps_, 0.0, 1.0); }
-  double r(double part) const {
-    return point_at(segment_.trajectory, proper_time_at(segment_, part)).r;
+  OrbitPoint point(double part) const {
+    return point_at(segment_.trajectory, proper_time_at(segment_, part));
   }
+  double r(double part) const { return point(part).r; }
 
-  // Returns the part that has passed when the observer is at r for the first time, on that leg if one
-  // is given.  The ends of segments are where they were meant to be but for rounding.
-  std::optional<double> at_radius(double radius, std::optional<Leg> leg) const {
-    const auto is_meant = [leg](double before, double after) {
+  // Returns the part that has passed when the observer is at the event's place for the first time, on
+  // its leg if it has one.  The ends of segments are where they were meant to be but for rounding.
+  std::optional<double> at_place(const MarkerEvent& event) const {
+    const auto is_meant = [leg = event.leg](double before, double after) {
       return !leg || (*leg == Leg::kInward ? after < before : after > before);
     };
-    double last = r(0);
+    const auto at = [&](double part) { return place_of(event, point(part)); };
+    const double wanted = place_of(event);
+    double last = at(0);
     for (int k = 0; k <= steps_; ++k) {
-      const double now = r(part(k));
-      const bool there = std::abs(now - radius) <= kAtEnds * radius;
-      if (there && (k < steps_ ? is_meant(now, r(part(k + 1))) : is_meant(last, now)))
+      const double now = at(part(k));
+      const bool there = is_at(event, now);
+      if (there && (k < steps_ ? is_meant(now, at(part(k + 1))) : is_meant(last, now)))
         return part(k);
-      if (!there && (last - radius) * (now - radius) < 0 && is_meant(last, now))
-        return crossing(part(k - 1), part(k), radius);
+      if (!there && (last - wanted) * (now - wanted) < 0 && is_meant(last, now))
+        return crossing(part(k - 1), part(k), wanted, at);
       last = now;
     }
     return std::nullopt;
@@ -68,12 +83,13 @@ class MarkedEvents::Way {
   }
 
  private:
-  // Returns the part at which r is a value that it passes between two others.
-  double crossing(double from, double to, double value) const {
-    const bool falls = r(from) > value;
+  // Returns the part at which at(part) is a value that it passes between two others.
+  template <class At>
+  static double crossing(double from, double to, double value, const At& at) {
+    const bool falls = at(from) > value;
     for (int k = 0; k < kHalvings; ++k) {
       const double middle = std::midpoint(from, to);
-      ((r(middle) > value) == falls ? from : to) = middle;
+      ((at(middle) > value) == falls ? from : to) = middle;
     }
     return to;
   }
@@ -111,8 +127,7 @@ void MarkedEvents::follow(const Segment& segment, double begin_s) {
   const auto periastron = part_at_periastron(way);
   for (Marker& marker : markers_) {
     if (!is_to_come(marker)) continue;
-    const auto part =
-        marker.event->r ? way.at_radius(*marker.event->r, marker.event->leg) : periastron;
+    const auto part = is_at_place(*marker.event) ? way.at_place(*marker.event) : periastron;
     if (part) marker.at_s = begin_s + *part * segment.duration_s;
   }
 }
@@ -126,10 +141,17 @@ Marker* MarkedEvents::coming(const Item& time) const {
 
 std::optional<ProperTime> time_of_event(const MarkerEvent& event, const Trajectory& trajectory,
                                         const ProperTime& begin) {
-  if (!event.r) return next_periastron(trajectory, begin);
-  // The r of a beginning that was sought for itself comes back rounded.
-  if (!event.leg && std::abs(point_at(trajectory, begin).r - *event.r) <= kAtEnds * *event.r)
-    return begin;
+  if (!is_at_place(event)) return next_periastron(trajectory, begin);
+  // The place of a beginning that was sought for itself comes back rounded.
+  if (!event.leg && is_at(event, place_of(event, point_at(trajectory, begin)))) return begin;
+  if (event.l) {
+    auto tau = time_at_l(trajectory, *event.l, begin);
+    if (!tau || !event.leg) return tau;
+    const double moment = kAtEnds * (1 + std::abs(double(*tau)));
+    const bool falls = point_at(trajectory, *tau + moment).l < *event.l;
+    return falls == (*event.leg == Leg::kInward) ? tau
+                                                 : time_at_l(trajectory, *event.l, *tau + moment);
+  }
   std::optional<ProperTime> first;
   for (const Leg leg : {Leg::kInward, Leg::kOutward}) {
     if (event.leg && leg != *event.leg) continue;
@@ -143,9 +165,11 @@ void report_missing_events(const Item& list, const std::vector<Marker>& markers)
   for (const Marker& marker : markers)
     if (is_to_come(marker))
       peek(list, marker.name)
-          ->fail(marker.event->r
-                     ? fmt::format("happens nowhere in the show, which is never at r = {}{}",
-                                   short_number(*marker.event->r), leg_text(marker.event->leg))
+          ->fail(is_at_place(*marker.event)
+                     ? fmt::format("happens nowhere in the show, which is never at {} = {}{}",
+                                   marker.event->l ? 'l' : 'r',
+                                   short_number(place_of(*marker.event)),
+                                   leg_text(marker.event->leg))
                      : "happens nowhere in the show, whose r never falls and rises again");
 }
 

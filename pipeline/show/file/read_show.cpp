@@ -35,15 +35,19 @@ Spacetime read_spacetime(const Section& s) {
     s.find("mass_solar")
         ->fail(fmt::format("must be 0 (flat space) or at least {} (solar masses), got {}",
                            short_number(kFewestSolarMasses), as_written(*s.find("mass_solar"))));
-  if (!(mass.value_or(1) > 0)) return FlatSpace{};
-  const double charge = s.number("charge");
+  const auto charge_given = s.given("charge");
+  const double charge = charge_given.value_or(0);
   const bool naked = s.flag("naked");
+  if (!(mass.value_or(1) > 0)) {
+    if (charge > 0) s.find("charge")->fail("is of a hole, which needs a mass_solar above 0");
+    return FlatSpace{};
+  }
   if (charge > 1 && !naked)
     s.find("charge")->fail(fmt::format(
         "must be at most 1, got {}: with more no horizon hides the singularity; if that "
         "is meant, say naked: true",
         as_written(*s.find("charge"))));
-  if (naked && !(charge > 1))
+  if (naked && !(charge > 1) && (charge_given || !s.find("charge")))
     s.find("naked")->fail("is for a charge above 1; with less, a horizon hides the singularity");
   if (charge > 0) return ChargedHole(mass.value_or(1), charge);
   return Schwarzschild{mass.value_or(1)};
@@ -96,6 +100,10 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.fades = read_fades(section);
   show.audio = read_audio(section, lookup);
   read_place(section, lookup, show);
+  for (const Marker& marker : show.markers)
+    if (marker.event && marker.event->l && !show.spacetime.is<Wormhole>())
+      peek(*section.find("markers"), marker.name)
+          ->fail("has an l, which is a place in a wormhole; events near a hole have an r");
   show.bodies = read_bodies(section, show, lookup);
   const ShowCamera camera = read_show_camera(section, show, lookup);
   show.projection = camera.projection;

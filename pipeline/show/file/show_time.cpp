@@ -132,7 +132,10 @@ bool can_name_a_marker(const std::string& name) { return !parse_time(name, {}); 
 
 MarkerEvent read_passage(const Item& item) {
   const Section s(item, {"marker"});
-  return {s.required("r"), s.given_word("leg", {Leg::kInward, Leg::kOutward})};
+  const auto leg = s.given_word("leg", {Leg::kInward, Leg::kOutward});
+  const Item* place = s.one_of({"r", "l"});
+  if (place && place == s.find("l")) return {{}, leg, s.given("l")};
+  return {s.required("r"), leg};
 }
 
 std::vector<Marker> markers_of_file(const Item& item, const Lookup& lookup) {

@@ -251,8 +251,12 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
     suit_milky_way(root, lookup, read.stars, read.background);
     show.sky[region] = read;
   }
-  if (const Item* four = sky.find(kSkyKeys[SkyRegion::kIV]))
+  if (const Item* four = sky.find(kSkyKeys[SkyRegion::kIV])) {
+    if (show.spacetime.is<ChargedHole>() || show.spacetime.is<Wormhole>())
+      four->fail(
+          "is the light of the past singularity, which is seen of holes without charge only");
     read_region_four(*four, lookup, show.sky[SkyRegion::kIV]);
+  }
   show.panorama_shift.blueshift_power = sky.number("blueshift_power");
   show.star_epoch = sky.number("epoch");
   if (sky.flag("planets")) read_planets(*sky.find("planets"), show);

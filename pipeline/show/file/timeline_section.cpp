@@ -122,8 +122,9 @@ class TimelineReader {
     if (!(rate > 0)) return refuse("but the clock of the segment stands still");
     const auto tau = time_of_event(*event.event, motion->trajectory, begin);
     if (!tau)
-      return refuse(event.event->r ? "but its way is never there"
-                                   : "but its way has no periastron that is known in closed form");
+      return refuse(event.event->r || event.event->l
+                        ? "but its way is never there"
+                        : "but its way has no periastron that is known in closed form");
     const double seconds = double(*tau - begin) / rate;
     if (!(seconds > 0)) return refuse("which happens as the segment begins");
     if (seconds > kLongest)
@@ -240,7 +241,9 @@ class TimelineReader {
     const Item* trajectory = section.find("trajectory");
     if (!trajectory && show_.spacetime.is_flat())
       return TimedTrajectory{StaticObserver{}, {0, duration}, {}};
-    section.require("trajectory", ", e.g. {type: infall, from_r: 30}");
+    section.require("trajectory", show_.spacetime.is<Wormhole>()
+                                      ? ", e.g. {type: infall, from_l: 9, speed: 0.5}"
+                                      : ", e.g. {type: infall, from_r: 30}");
     if (!trajectory) return std::nullopt;
     const std::size_t reported = item.problems->count();
     Stage stage{show_.spacetime, axes_before(), duration,

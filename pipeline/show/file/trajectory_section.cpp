@@ -52,7 +52,14 @@ std::optional<TimedTrajectory> read_circular(const Item& item, const Stage& stag
   const auto rate = read_rate(s, stage, r ? std::optional(turn) : std::nullopt);
   if (!r || !rate) return std::nullopt;
   // Between the two circles of light of a naked singularity.
-  if (!(turn > 0)) return s.find("r")->fail("is where an orbit needs more than the speed of light");
+  if (!(turn > 0)) {
+    const double q = std::get<ChargedHole>(stage.spacetime.kind()).charge;
+    const double apart = std::sqrt(9 - 8 * q * q);
+    return s.find("r")->fail(fmt::format(
+        "must not be from {} to {} (units of M), got {}: between the two circles of "
+        "light an orbit needs more than the speed of light",
+        short_number((3 - apart) / 2), short_number((3 + apart) / 2), as_written(*s.find("r"))));
+  }
   Trajectory circle = CircularOrbit{*r};
   if (const auto* hole = std::get_if<ChargedHole>(&stage.spacetime.kind()))
     circle = ChargedCircle{*hole, *r};
@@ -250,8 +257,11 @@ static_assert(kTypeNames[kTypesOfBodies - 1] == "thrown" &&
 
 }  // namespace
 
-std::span<const std::string_view> trajectories_of_bodies() {
-  return std::span(kTypeNames).first(kTypesOfBodies);
+std::vector<std::string_view> trajectories_of_bodies(const Spacetime& spacetime) {
+  std::vector<std::string_view> names;
+  for (const Type& type : std::span(kTypes).first(kTypesOfBodies))
+    if (why_not(type, spacetime).empty()) names.push_back(type.name);
+  return names;
 }
 
 std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, const Stage& stage,

@@ -87,9 +87,9 @@ struct TimedTrajectory {
   Placement placement;
 };
 
-// Returns the types of trajectory that a body can follow by itself.  The others need a segment, or
-// an engine.
-std::span<const std::string_view> trajectories_of_bodies();
+// Returns the types of trajectory that a body can follow there by itself.  The others need a segment,
+// or an engine.
+std::vector<std::string_view> trajectories_of_bodies(const Spacetime& spacetime);
 
 // Returns the r at which an observer can rest outside of a hole, and those of free circular orbits, as
 // far as one range tells.

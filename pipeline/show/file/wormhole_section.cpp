@@ -44,8 +44,6 @@ std::optional<TimedTrajectory> read_wormhole_circle(const Item& item, const Stag
   find_end(s, {"orbits"});
   const auto l = s.required("l"), speed = s.required("speed");
   if (!l || !speed) return std::nullopt;
-  if (!(*speed > 0))
-    return s.find("speed")->fail("must be above 0; what keeps its place is of type static");
   const Wormhole& wormhole = wormhole_of(stage);
   const double turn =
       2 * std::numbers::pi * wormhole.radius(*l) * std::sqrt((1 - *speed) * (1 + *speed)) / *speed;

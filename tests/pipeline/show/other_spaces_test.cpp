@@ -265,6 +265,67 @@ TEST_F(OtherSpaces, WhatIsThrownInAWormholeFallsFreely) {
               1e-13);
 }
 
+// Both sides of the throat have the same r.
+TEST_F(OtherSpaces, EventsInAWormholeAreToldByL) {
+  const Show s = read(
+      "wormhole: {radius_km: 1, length: 1}\n"
+      "markers: {throat: {l: 0}, far: {l: -2}, back: {l: 2, leg: inward}}\ntimeline:\n  - "
+      "{duration_s: 10, trajectory: {type: infall, from_l: 5, speed: 0.5, "
+      "to_l: -5}}\n");
+  ASSERT_EQ(s.markers.size(), 3u);
+  EXPECT_NEAR(s.markers[0].at_s, 5, 1e-9);
+  EXPECT_NEAR(s.markers[1].at_s, 7, 1e-9);
+  EXPECT_NEAR(s.markers[2].at_s, 3, 1e-9);
+  const Show there = read(
+      "wormhole: {radius_km: 1, length: 1}\nmarkers: {throat: {l: 0}}\ntimeline:\n"
+      "  - {duration_s: 10, trajectory: {type: infall, from_l: 5, speed: 0.5, to_l: 0}}\n");
+  EXPECT_NEAR(there.markers[0].at_s, 10, 1e-9);
+  const Show ends = read(
+      "wormhole: {radius_km: 1, length: 1}\nmarkers: {throat: {l: 0}}\ntimeline:\n"
+      "  - {duration_s: throat, trajectory: {type: infall, from_l: 5, speed: 0.5, rate_m_per_s: "
+      "1}}\n");
+  EXPECT_NEAR(ends.timeline[0].duration_s, 5 / 0.5 * std::sqrt(0.75), 1e-9);
+  const Show turns = read(
+      "wormhole: {radius_km: 1, profile: ellis}\nmarkers: {again: {l: 4, leg: "
+      "outward}}\ntimeline:\n"
+      "  - {duration_s: again, trajectory: {type: infall, from_l: 5, speed: 0.5, "
+      "impact_parameter: 2, rate_m_per_s: 1}}\n");
+  // With l = sqrt(3) cosh u, where the way turns at u = 0, its length is int sqrt(1 + 3 cosh(u)^2) du.
+  const auto length = [](double l) {
+    constexpr int kSteps = 20000;
+    const double end = std::acosh(l / std::sqrt(3.0));
+    double sum = 0;
+    for (int k = 0; k < kSteps; ++k)
+      sum += std::hypot(1.0, std::sqrt(3.0) * std::cosh(end * (k + 0.5) / kSteps));
+    return sum * end / kSteps;
+  };
+  EXPECT_NEAR(turns.timeline[0].duration_s, (length(5) + length(4)) / 0.5 * std::sqrt(0.75), 1e-8);
+}
+
+// A camera that stays keeps its place near the hole, and its time goes on.
+TEST_F(OtherSpaces, ACameraThatStaysKeepsItsPlaceInAFastFall) {
+  for (const std::string& trajectory : {std::string("{type: infall, from_r: 16, to_r: 0.7}"),
+                                        std::string("{type: circular, r: 9}")}) {
+    const Show s = show_in(kCharge, "  - {duration_s: 4, trajectory: " + trajectory + "}\n");
+    const FrameState state = frame_state(s, 60);
+    const ObserverState stays = observer_after(s, state, 5, CameraMotion::kStays),
+                        moves = observer_after(s, state, 5, CameraMotion::kMoves);
+    EXPECT_EQ(stays.r, state.observer.r);
+    expect_near(stays.celerity, state.observer.celerity);
+    EXPECT_EQ(stays.null_time, moves.null_time);
+    expect_near(column(stays.sky_from_tetrad, 0), column(moves.sky_from_tetrad, 0));
+  }
+  const Show s = show_in(kWormhole,
+                         "  - {duration_s: 4, trajectory: {type: infall, from_l: 7, speed: 0.5, "
+                         "to_l: -6}}\n");
+  const FrameState state = frame_state(s, 60);
+  const ObserverState stays = observer_after(s, state, 5, CameraMotion::kStays),
+                      moves = observer_after(s, state, 5, CameraMotion::kMoves);
+  EXPECT_EQ(stays.l, state.observer.l);
+  // t = v - l is the observer's own.
+  EXPECT_NEAR(stays.null_time - stays.l, moves.null_time - moves.l, 1e-12);
+}
+
 TEST_F(OtherSpaces, AVelocityInAWormholeIsHeldAtItsPlace) {
   const Show s = show_in(kWormhole,
                          "  - {duration_s: 5, trajectory: {type: velocity, l: -2, speed: [0, 0.8], "
