@@ -1,4 +1,6 @@
 // Real rows of Tycho-2 and of d3-celestial's Hipparcos stars (tests/reference/README.md).
+#include <algorithm>
+
 #include "pipeline/sources/stars/amend_catalogue.h"
 #include "pipeline/sources/stars/catalogue_formats.h"
 #include "tests/pipeline/image/test_folder.h"
