@@ -9,7 +9,7 @@
 The camera `Domefall` is turned in each frame as the show's, in a world whose x is the way on which an orbit goes and
 whose z is its north, with the hole along y. It is a panoramic camera of Cycles, or one of perspective for a rectilinear
 picture. The compositor adds the layers as docs/compositing.md says, so that each can be graded by itself: titles over
-sky + stars + disc + bodies; without layers it shows the frames. With --lens it shows a picture of a whole sky (by
+sky + stars + disc + bodies + glare; without layers it shows the frames. With --lens it shows a picture of a whole sky (by
 longitude and latitude, RA 0 in the middle, such as a panoramic render of a scene) as the hole lenses it. With --out it
 renders and writes what the compositor shows, in floats. Tried with Blender 3.4.
 """
@@ -135,7 +135,7 @@ def linear_space(image):
 
 def composite(compositor, frames):
     layers = {output.name: output for output in frames.outputs}
-    below = [layers[name] for name in ('sky', 'stars', 'disc', 'bodies') if name in layers]
+    below = [layers[name] for name in ('sky', 'stars', 'disc', 'bodies', 'glare') if name in layers]
     if not below:
         return frames.outputs[0]
     picture = below[0]

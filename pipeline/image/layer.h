@@ -2,7 +2,7 @@
 //
 // Premultiplied and scene-linear, they make the picture again, to the rounding of its halves:
 //
-//     picture = titles + (1 - titles.A) (sky + stars + disc + bodies)
+//     picture = titles + (1 - titles.A) (sky + stars + disc + bodies + glare)
 //
 // Sky and stars hold the light that is left behind the disc, so that this is true of the mean of
 // several instants and of a mixture of two views, too.  The alpha of the disc says how much it hides.
@@ -18,15 +18,19 @@
 
 namespace domefall {
 
-enum class Layer { kSky, kStars, kDisc, kBodies, kTitles };
+enum class Layer { kSky, kStars, kDisc, kBodies, kGlare, kTitles };
 
 struct LayerKind {
   std::string_view name;  // of its channels, NAME.R
   bool has_alpha;         // whether it can hide what is behind it
 };
 // In the order of the enumeration, which is that of drawing.
-inline constexpr std::array<LayerKind, 5> kLayers{
-    {{"sky", false}, {"stars", false}, {"disc", true}, {"bodies", true}, {"titles", true}}};
+inline constexpr std::array<LayerKind, 6> kLayers{{{"sky", false},
+                                                   {"stars", false},
+                                                   {"disc", true},
+                                                   {"bodies", true},
+                                                   {"glare", false},
+                                                   {"titles", true}}};
 
 static_assert(kLayers.size() == static_cast<std::size_t>(Layer::kTitles) + 1);
 

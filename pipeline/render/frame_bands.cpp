@@ -246,8 +246,9 @@ void prepare_layers(bool lit, const DrawnLight& drawn, LayeredFrame<T>& frame) {
         return drawn.disc != nullptr;
       case Layer::kBodies:
         return drawn.bodies != nullptr;
+      case Layer::kGlare:
       case Layer::kTitles:
-        break;
+        break;  // they come later
     }
     return false;
   };

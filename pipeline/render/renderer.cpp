@@ -18,6 +18,7 @@
 #include "pipeline/render/frame_bodies.h"
 #include "pipeline/render/frame_mattes.h"
 #include "pipeline/render/frame_stars.h"
+#include "pipeline/render/glare.h"
 #include "pipeline/render/overlay/frame_overlays.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/render/shutter.h"
@@ -215,6 +216,11 @@ void Renderer::render(const FrameState& state, LayeredFloatFrame& frame, StageTi
 template <class T>
 void Renderer::render_frame(const FrameState& state, LayeredFrame<T>& frame, StageTimes* times) {
   render_exposed(state, frame, times);
+  if (show_.glare.share > 0) {
+    StopWatch watch;
+    memory_->arena.execute([&] { add_glare(show_.glare, state.projection, frame); });
+    if (times) times->glare_s = watch.lap();
+  }
   for (int row = 0; !frame.alpha.empty() && row < frame.picture.height; ++row)
     fill_alpha(inside_columns(state.projection, row), row, frame);
   draw_titles(show_, state, frame);

@@ -17,6 +17,7 @@ void StageTimes::add(const StageTimes& other) {
   grid_s += other.grid_s;
   disc_s += other.disc_s;
   pixels_s += other.pixels_s;
+  glare_s += other.glare_s;
   traced_fraction = std::max(traced_fraction, other.traced_fraction);
   table_nodes = std::max(table_nodes, other.table_nodes);
   images += other.images;
@@ -52,6 +53,7 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   if (plan.disc) text += fmt::format("disc    {:8.4f} s  drawn with the pixels\n", t.disc_s);
   text += fmt::format("pixels  {:8.4f} s  {:.1f} % traced one by one; loops: {}\n", t.pixels_s,
                       100 * t.traced_fraction, name_of(simd_in_use()));
+  if (t.glare_s > 0) text += fmt::format("glare   {:8.4f} s\n", t.glare_s);
   return text;
 }
 

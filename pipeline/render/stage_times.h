@@ -11,7 +11,7 @@ namespace domefall {
 
 struct StageTimes {
   // All times are by the wall clock.  That of the disc is what its tables take.
-  double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, disc_s = 0, pixels_s = 0;
+  double load_s = 0, tables_s = 0, stars_s = 0, grid_s = 0, disc_s = 0, pixels_s = 0, glare_s = 0;
   double traced_fraction = 0;  // the part of the sky's pixels that have view rays of their own
   std::size_t table_nodes = 0, images = 0;
   int tables_made = 0;  // those that were not kept from the frame before

@@ -201,6 +201,17 @@ struct Exposure {
   double shutter = 0;
 };
 
+// A Glare says how eye or lens scatter light in small angles.  A part `share` of all light is spread by
+// kGlareGaussians, whose widths are in units of sigma (a standard deviation) and whose shares add up
+// to 1.  The narrow halo of stars, PointSpreadLaw::halo, comes on top.
+struct Glare {
+  double share = 0, sigma = 0.5 * std::numbers::pi / 180;  // radians
+};
+struct GlareGaussian {
+  double width, share;
+};
+inline constexpr GlareGaussian kGlareGaussians[] = {{1, 0.48}, {4, 0.28}, {15, 0.16}, {50, 0.08}};
+
 // ---- the physics ----
 
 // An Amplification says what is brightened by the magnification f of [Riazuelo] eq. eq_ampl.
@@ -329,6 +340,7 @@ struct Show {
   // of the lens, and makes an arc or a ring of one that stays there.
   double least_star_radius = kLeastStarRadiusDeg * std::numbers::pi / 180;
   Exposure exposure;
+  Glare glare;
   GradeSettings grade;
   Output output;
 };

@@ -14,7 +14,7 @@ black_hole: {mass_solar: 4.3e6}
 disc: {inclination_deg: 60, opacity: 0.8}
 bodies: {beacon: {r: 9, magnitude: -3}}
 titles: [{text: "Title", height_deg: 8, shadow: 0.8, brightness: 3}]
-output: {graded: none, layers: [sky, stars, disc, bodies, titles]}
+output: {graded: none, layers: [sky, stars, disc, bodies, glare, titles]}
 timeline: [{duration_s: 0.15, trajectory: {type: circular, r: 15, orbits: 0.01}}]
 END
 exits 0 "$DOMEFALL" render show.yaml --out made

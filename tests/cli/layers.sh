@@ -6,14 +6,14 @@ ln -s "$DOMEFALL_SOURCE"/shows/* .
 # layered SHOW OUT OUTPUT...: a shipped show whose scene-linear files have layers.
 layered() {
   sed '/^output:/d' "$1" >"$2"
-  printf 'output: {graded: none, name: f, layers: [titles, sky, stars, disc, bodies]%s}\n' "$3" >>"$2"
+  printf 'output: {graded: none, name: f, layers: [titles, sky, stars, disc, bodies, glare]%s}\n' "$3" >>"$2"
 }
 
 # off_by FILE: by how much the layers, put together by the formula of docs/compositing.md, are off
 # the picture at most, as a part of it.
 off_by() {
   local layer sum=()
-  for layer in stars disc bodies; do
+  for layer in stars disc bodies glare; do
     sum+=("$1" --ch "$layer.R,$layer.G,$layer.B" --chnames 'r,g,b' --add)
   done
   oiiotool "$1" --ch sky.R,sky.G,sky.B --chnames r,g,b "${sum[@]}" \
@@ -61,7 +61,7 @@ says '^0 frames made'
 sed 's/layers: /layer_files: true, &/' layers_of_disc.yaml >apart.yaml
 exits 0 "$DOMEFALL" render apart.yaml --size 96 --frames "$number" --out apart
 of_number=$(basename "$frame")
-for layer in sky stars disc bodies titles; do
+for layer in sky stars disc bodies glare titles; do
   oiiotool "$frame" --ch "$layer.R,$layer.G,$layer.B" -o picture.exr
   oiiotool "apart/layers/$layer/$of_number" --ch R,G,B -o one.exr
   same_pixels picture.exr one.exr || fail "the file of $layer has other pixels"
@@ -100,7 +100,7 @@ done
 
 # Channels in the order in which other programs list them; alpha is 1 in the dome alone.
 exits 0 oiiotool --info -v "$frame"
-grep -q 'channel list: R.*G.*B.*A.*bodies.R.*bodies.A.*disc.R.*disc.A.*sky.R.*stars.R.*titles.R.*titles.A' stdout ||
+grep -q 'channel list: R.*G.*B.*A.*bodies.R.*bodies.A.*disc.R.*disc.A.*glare.R.*sky.R.*stars.R.*titles.R.*titles.A' stdout ||
   fail "channels: $(grep 'channel list' stdout)"
 
 # It is graded from the file as it would be at once.
@@ -215,7 +215,7 @@ def parts(name):
     node, knobs, behind = inputs[name]
     own = {re.search(r"in (\w+)", knobs)[1]} if node == "Shuffle" else set()
     return own.union(*(parts(one) for one in behind))
-assert parts("Output1") == {"sky", "stars", "disc", "bodies", "titles"}, parts("Output1")
+assert parts("Output1") == {"sky", "stars", "disc", "bodies", "glare", "titles"}, parts("Output1")
 over = next(node for node in inputs.values() if "operation over" in node[1])
 assert parts(over[2][1]) == {"titles"}, over
 END

@@ -13,7 +13,7 @@ constexpr std::string_view kRows = R"(
 | `title` | one line of text | the file's name without `.yaml` |
 | `frames_per_second` | 1 to 240 frames per second: also as a fraction such as 24000/1001; 23.98, 29.97 and the like stand for n 1000/1001 | [30] |
 | `size` | for a dome `1k`, `2k`, `4k`, `8k` or 16 to 16384 pixels; for a flat picture `[width, height]`, each 16 to 16384; for others see [projections](#projections) | [`4k`], flat [`[1920, 1080]`] |
-| `black_hole`, `wormhole`, `camera`, `effects`, `sky`, `stars`, `disc`, `bodies`, `exposure`, `grade`, `dome`, `output` | sections, below | |
+| `black_hole`, `wormhole`, `camera`, `effects`, `sky`, `stars`, `disc`, `bodies`, `exposure`, `glare`, `grade`, `dome`, `output` | sections, below | |
 | `begins_year` | -1e6 to 1e6 years: the year in which the show begins, for [planets](#planets-sun-and-moon), bodies given by their [elements](#orbits-by-elements) and the [counter](#counters) `{year}` | |
 | `cameras` | further cameras by name, [below](#cameras) | |
 | `keyframes` | what changes during the show, [below](#keyframes) | |
@@ -235,12 +235,12 @@ constexpr std::string_view kRows = R"(
 | `outer_r` | above 2, at most 1e6: where it ends outside, above `inner_r` | [20] |
 | `inclination_deg` | 0 to 180: the angle between its plane and that of the orbits that set out as `heading_deg` says; with more than 90 it turns against them | [10] |
 | `node_deg` | -360 to 360: where its gas rises through the plane of the orbits to their north, as an azimuth from the observer's first place in the sense of the orbits | [90] |
-| `t_max_k` | 1000 to 1e9: the temperature of its hottest ring | [10000] |
+| `t_max_k` | 1000 to 1e9: the temperature of its hottest ring; the colour of hot steel at 4000, of the Sun at 6000, blue at 20000 | [4000] |
 | `plunging` | `true` or `false`: whether gas falls in from the last stable orbit and shines on its way | [`false`] |
 | `pattern` | `turbulence`, `rings`, `spot` or `none`: or a map with one of these as `type` and the keys below | [`none`] |
 | `slow_light` | `true` or `false`: whether a pattern is seen as it was when the light left it; with `false` all of it is seen at one time | [`true`] |
 ## disc.light
-| `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: how bright that ring is to an observer who moves with it | [1e-3, which is pixel value 1 at 0 EV] |
+| `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: how bright that ring is to an observer who moves with it | [1e-2, which is pixel value 10 at 0 EV] |
 | `opacity` | 0 to 1: the part of the light from behind it that it takes away; its own light is the same part of what it would be | [1] |
 ## pattern
 | `type` | `turbulence`, `rings`, `spot` or `none`: a pattern with the keys below | required |
@@ -279,6 +279,9 @@ constexpr std::string_view kRows = R"(
 | `pericentre_year` | -1e6 to 1e6 years: of the hole's light, v, as the show's `begins_year` | required |
 ## exposure
 | `ev` | -30 to 30 stops: +1 doubles the light | [0] |
+## glare
+| `share` | 0 to 0.9: the part of all light that is spread around; 0 for none | [0.12 with a disc or bodies that have a radius, else 0] |
+| `width_deg` | 0.3 to 5: the standard deviation of the narrowest part; the others are 4, 15 and 50 times as wide | [0.5] |
 ## shutter
 | `shutter_deg` | 0 to 360: how long the shutter is open, as a film camera's: 180 is half the time from one frame to the next, 360 all of it; 0 is the instant alone | [0] |
 ## grade
@@ -297,7 +300,7 @@ constexpr std::string_view kRows = R"(
 ## output
 | `linear` | `half`, `float` or `none`: scene-linear OpenEXR, of 16-bit floats or of 32 bits, twice the size, for compositing: bright stars beyond 65504 keep their light and dim ones their digits. A change from one to the other makes all frames again | [`half`] |
 | `pixel_aspect` | 0.5 to 2: the width of a pixel over its height, of flat pictures and fisheyes, or a ratio such as `16:11`, [below](#pixels-that-are-not-square) | [1] |
-| `layers` | a list of any of `sky`, `stars`, `disc`, `bodies` and `titles`: these parts of the light, too, in the scene-linear files, as [compositing.md](compositing.md) says | none |
+| `layers` | a list of any of `sky`, `stars`, `disc`, `bodies`, `glare` and `titles`: these parts of the light, too, in the scene-linear files, as [compositing.md](compositing.md) says | none |
 | `layer_files` | `true` or `false`: whether each layer has a file of its own, `layers/disc/NAME_00000.exr`, with channels `R`, `G`, `B` and, where it has one, `A` | [`false`] |
 | `data` | a list of any of `lens`, `mattes` and `cryptomatte`: numbers about each pixel, as channels of 32 bits in the scene-linear files, as [compositing.md](compositing.md) says | none |
 | `compression` | `zip`, `zips`, `piz` or `none`: of the scene-linear files, all without loss: blocks of 16 rows, single rows, or wavelets, which are smaller for noise and three times slower to read | [`zip`] |

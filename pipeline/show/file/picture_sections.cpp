@@ -181,6 +181,16 @@ Exposure read_exposure(const Section& show) {
   return {s.number("ev"), s.number("shutter_deg") / 360};
 }
 
+// Only what is brighter than skies by far glares visibly, and all others save the time.
+Glare read_glare(const Section& show, const Show& of) {
+  const Section s(show.find("glare"), {"glare"});
+  constexpr double kBesideGlowingMatter = 0.12;
+  const bool glows = of.disc || std::ranges::any_of(of.bodies, [](const Body& body) {
+                       return body.radius > 0;
+                     });
+  return {s.number("share", glows ? kBesideGlowingMatter : 0), s.angle("width_deg")};
+}
+
 Effects read_effects(const Section& show) {
   const Section s(show.find("effects"), {"effects"});
   Effects effects;

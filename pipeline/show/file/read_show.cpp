@@ -111,6 +111,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   read_sky(root, section, lookup, show);
   show.disc = read_disc(section, show);
   show.exposure = read_exposure(section);
+  show.glare = read_glare(section, show);
   show.effects = read_effects(section);
   show.grade = read_grade(section, lookup);
   show.draws_titles = section.flag("draw_titles");

@@ -18,6 +18,8 @@ namespace domefall {
 // gain that they have in skies for which read_sky() finds none.
 void read_stars(const Section& show, Show& to);
 Exposure read_exposure(const Section& show);
+// The bodies and the disc of `of` must have been read.
+Glare read_glare(const Section& show, const Show& of);
 Effects read_effects(const Section& show);
 // Reports `lensing: false` if a frame lies on or inside a horizon, where no frame is at rest whose
 // straight lines light could follow.  `root` is the whole file, and `show` must have been read

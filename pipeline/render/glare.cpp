@@ -1,0 +1,164 @@
+#include "pipeline/render/glare.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "pipeline/render/sphere_blur.h"
+
+namespace domefall {
+namespace {
+
+using Rgb = SphereBlur::Rgb;
+
+// A GlarePart is an image without a seam in a frame, the whole one or a face of a cubemap.
+struct GlarePart {
+  CubemapFace face;
+  int width, height;
+
+  explicit GlarePart(const CubemapFace& of)
+      : face(of), width(columns(of.projection)), height(rows(of.projection)) {}
+  CameraDirection direction(double column, double row) const {
+    const V3d n = direction_at(face.projection, {column, row}).v;
+    return {n.x * face.axes[0] + n.y * face.axes[1] + n.z * face.axes[2]};
+  }
+};
+
+std::vector<GlarePart> parts_of(const Projection& projection) {
+  std::vector<GlarePart> parts;
+  for (const CubemapFace& face : cubemap_faces(projection)) parts.emplace_back(face);
+  if (parts.empty())
+    parts.emplace_back(CubemapFace{0, 0, projection, {V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1)}});
+  return parts;
+}
+
+// Adds the light of blocks of so many pixels on a side.
+template <class T>
+void gather(const GlarePart& part, int step, const ImageRgb<T>& picture, SphereBlur& sphere) {
+  struct Block {
+    SphereBlur::Place place;
+    Rgb light;
+  };
+  const int across = (part.width + step - 1) / step, down = (part.height + step - 1) / step;
+  std::vector<Block> blocks(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+  tbb::parallel_for(0, down, [&](int y) {
+    for (int x = 0; x < across; ++x) {
+      const int left = x * step, right = std::min(part.width, left + step), top = y * step,
+                bottom = std::min(part.height, top + step);
+      Rgb sum{};
+      for (int row = top; row < bottom; ++row) {
+        const T* pixel = picture.row(part.face.row + row) + 3 * (part.face.column + left);
+        for (int k = 0; k < 3 * (right - left); ++k)
+          sum[static_cast<std::size_t>(k % 3)] += static_cast<float>(pixel[k]);
+      }
+      Block& block = blocks[static_cast<std::size_t>(y) * static_cast<std::size_t>(across) +
+                            static_cast<std::size_t>(x)];
+      block.light = {};
+      if (sum == Rgb{}) continue;
+      const PixelPosition middle{(left + right + 1) / 2.0, (top + bottom + 1) / 2.0};
+      const auto area = static_cast<float>(pixel_solid_angle(part.face.projection, middle));
+      block.place = sphere.place(part.direction(middle.i, middle.j));
+      for (std::size_t c = 0; c < 3; ++c) block.light[c] = area * sum[c];
+    }
+  });
+  for (const Block& block : blocks)
+    if (block.light != Rgb{}) sphere.add(block.place, block.light);
+}
+
+// A GlareGrid is the scattered light at the corners of those blocks.
+class GlareGrid {
+ public:
+  GlareGrid(const GlarePart& part, int step, const SphereBlur& sphere)
+      : step_(step), across_((part.width + step - 1) / step + 1) {
+    const int down = (part.height + step - 1) / step + 1;
+    corners_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down));
+    tbb::parallel_for(0, down, [&](int y) {
+      for (int x = 0; x < across_; ++x)
+        corners_[index(x, y)] =
+            sphere.at(sphere.place(part.direction(x * step + 0.5, y * step + 0.5)));
+    });
+  }
+
+  Rgb at(int column, int row) const {
+    const int x = column / step_, y = row / step_;
+    const float right = (static_cast<float>(column - x * step_) + 0.5f) / static_cast<float>(step_),
+                below = (static_cast<float>(row - y * step_) + 0.5f) / static_cast<float>(step_);
+    const Rgb &a = corners_[index(x, y)], &b = corners_[index(x + 1, y)],
+              &c = corners_[index(x, y + 1)], &d = corners_[index(x + 1, y + 1)];
+    Rgb mean;
+    for (std::size_t k = 0; k < 3; ++k)
+      mean[k] = (1 - below) * ((1 - right) * a[k] + right * b[k]) +
+                below * ((1 - right) * c[k] + right * d[k]);
+    return mean;
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(across_) +
+           static_cast<std::size_t>(x);
+  }
+
+  int step_, across_;
+  std::vector<Rgb> corners_;
+};
+
+// Stores light as the bands of a frame do.
+void store(float value, Imath::half& out) { out = std::clamp(value, 0.0f, 65504.0f); }
+void store(float value, float& out) { out = std::max(value, 0.0f); }
+
+template <class T>
+void scatter(const GlarePart& part, float share, const GlareGrid& grid, LayeredFrame<T>& frame) {
+  LayerImage<T>* const layer = frame.find(Layer::kGlare);
+  const auto planes = frame.lights();
+  tbb::parallel_for(0, part.height, [&](int row) {
+    const ColumnRange inside = inside_columns(part.face.projection, row);
+    for (int column = inside.first; column <= inside.last; ++column) {
+      const Rgb light = grid.at(column, row);
+      const auto at = 3 * (static_cast<std::size_t>(part.face.row + row) *
+                               static_cast<std::size_t>(frame.picture.width) +
+                           static_cast<std::size_t>(part.face.column + column));
+      for (std::size_t c = 0; c < 3; ++c) {
+        for (std::vector<T>* plane : planes)
+          if (!plane->empty())
+            store((1 - share) * static_cast<float>((*plane)[at + c]), (*plane)[at + c]);
+        T& pixel = frame.picture.pixels[at + c];
+        store(static_cast<float>(pixel) + share * light[c], pixel);
+        if (layer) store(share * light[c], layer->light.pixels[at + c]);
+      }
+    }
+  });
+}
+
+// Returns k_l of the law, less what the blocks and the grid spread by themselves.
+std::vector<double> kernel_of(double sigma, double own_variance, int orders) {
+  std::vector<double> kernel(static_cast<std::size_t>(orders));
+  for (const auto& [width, share] : kGlareGaussians) {
+    const double variance = std::pow(sigma * width, 2) - own_variance;
+    for (std::size_t l = 0; l < kernel.size(); ++l)
+      kernel[l] += share * std::exp(-static_cast<double>(l * (l + 1)) * variance / 2);
+  }
+  return kernel;
+}
+
+}  // namespace
+
+template <class T>
+void add_glare(const Glare& glare, const Projection& projection, LayeredFrame<T>& frame) {
+  const double pixel = largest_pixel_angle(projection), sigma = std::max(glare.sigma, 0.7 * pixel);
+  const int step = std::max(1, static_cast<int>(std::lround(0.35 * sigma / pixel)));
+  SphereBlur sphere(sigma);
+  const std::vector<GlarePart> parts = parts_of(projection);
+  for (const GlarePart& part : parts) gather(part, step, frame.picture, sphere);
+  const double block = step * pixel;
+  sphere.blur(kernel_of(sigma, sphere.own_variance() + block * block / 4, sphere.orders()));
+  if (LayerImage<T>* layer = frame.find(Layer::kGlare)) layer->add_pixels(false);
+  for (const GlarePart& part : parts)
+    scatter(part, static_cast<float>(glare.share), GlareGrid(part, step, sphere), frame);
+}
+
+template void add_glare(const Glare&, const Projection&, LayeredHalfFrame&);
+template void add_glare(const Glare&, const Projection&, LayeredFloatFrame&);
+
+}  // namespace domefall
