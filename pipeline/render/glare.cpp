@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "pipeline/base/simd/half_row.h"
 #include "pipeline/render/sphere_blur.h"
 
 namespace domefall {
@@ -81,17 +84,23 @@ class GlareGrid {
     });
   }
 
-  Rgb at(int column, int row) const {
-    const int x = column / step_, y = row / step_;
-    const float right = (static_cast<float>(column - x * step_) + 0.5f) / static_cast<float>(step_),
-                below = (static_cast<float>(row - y * step_) + 0.5f) / static_cast<float>(step_);
-    const Rgb &a = corners_[index(x, y)], &b = corners_[index(x + 1, y)],
-              &c = corners_[index(x, y + 1)], &d = corners_[index(x + 1, y + 1)];
-    Rgb mean;
-    for (std::size_t k = 0; k < 3; ++k)
-      mean[k] = (1 - below) * ((1 - right) * a[k] + right * b[k]) +
-                below * ((1 - right) * c[k] + right * d[k]);
-    return mean;
+  // Sets the light of the pixels of a row, `factor` times that which is scattered.
+  void fill_row(int row, float factor, std::span<float> light) const {
+    const int y = row / step_;
+    const float below = (static_cast<float>(row - y * step_) + 0.5f) / static_cast<float>(step_);
+    const auto corner = [&](int x, std::size_t c) {
+      return factor *
+             ((1 - below) * corners_[index(x, y)][c] + below * corners_[index(x, y + 1)][c]);
+    };
+    auto out = light.begin();
+    for (int x = 0; out != light.end(); ++x) {
+      const Rgb left{corner(x, 0), corner(x, 1), corner(x, 2)},
+          right{corner(x + 1, 0), corner(x + 1, 1), corner(x + 1, 2)};
+      for (int k = 0; k < step_ && out != light.end(); ++k) {
+        const float part = (static_cast<float>(k) + 0.5f) / static_cast<float>(step_);
+        for (std::size_t c = 0; c < 3; ++c) *out++ = left[c] + part * (right[c] - left[c]);
+      }
+    }
   }
 
  private:
@@ -104,9 +113,12 @@ class GlareGrid {
   std::vector<Rgb> corners_;
 };
 
-// Stores light as the bands of a frame do.
-void store(float value, Imath::half& out) { out = std::clamp(value, 0.0f, 65504.0f); }
-void store(float value, float& out) { out = std::max(value, 0.0f); }
+// Stores values, those beyond the largest half as that one.
+void store(std::span<const float> values, Imath::half* out) {
+  static_assert(sizeof(Imath::half) == sizeof(std::uint16_t));
+  to_half(values.data(), static_cast<int>(values.size()), reinterpret_cast<std::uint16_t*>(out));
+}
+void store(std::span<const float> values, float* out) { std::ranges::copy(values, out); }
 
 template <class T>
 void scatter(const GlarePart& part, float share, const GlareGrid& grid, LayeredFrame<T>& frame) {
@@ -114,19 +126,21 @@ void scatter(const GlarePart& part, float share, const GlareGrid& grid, LayeredF
   const auto planes = frame.lights();
   tbb::parallel_for(0, part.height, [&](int row) {
     const ColumnRange inside = inside_columns(part.face.projection, row);
-    for (int column = inside.first; column <= inside.last; ++column) {
-      const Rgb light = grid.at(column, row);
-      const auto at = 3 * (static_cast<std::size_t>(part.face.row + row) *
-                               static_cast<std::size_t>(frame.picture.width) +
-                           static_cast<std::size_t>(part.face.column + column));
-      for (std::size_t c = 0; c < 3; ++c) {
-        for (std::vector<T>* plane : planes)
-          if (!plane->empty())
-            store((1 - share) * static_cast<float>((*plane)[at + c]), (*plane)[at + c]);
-        T& pixel = frame.picture.pixels[at + c];
-        store(static_cast<float>(pixel) + share * light[c], pixel);
-        if (layer) store(share * light[c], layer->light.pixels[at + c]);
-      }
+    if (inside.last < inside.first) return;
+    std::vector<float> light(3 * static_cast<std::size_t>(part.width)), values(light.size());
+    grid.fill_row(row, share, light);
+    const auto first = 3 * static_cast<std::size_t>(inside.first),
+               count = 3 * static_cast<std::size_t>(inside.last - inside.first + 1);
+    const std::size_t at = first + 3 * (static_cast<std::size_t>(part.face.row + row) *
+                                            static_cast<std::size_t>(frame.picture.width) +
+                                        static_cast<std::size_t>(part.face.column));
+    for (std::vector<T>* plane : planes) {
+      if (plane->empty()) continue;
+      const bool gains = plane == &frame.picture.pixels || (layer && plane == &layer->light.pixels);
+      for (std::size_t k = 0; k < count; ++k)
+        values[k] =
+            (1 - share) * static_cast<float>((*plane)[at + k]) + (gains ? light[first + k] : 0.0f);
+      store({values.data(), count}, plane->data() + at);
     }
   });
 }
@@ -147,7 +161,7 @@ std::vector<double> kernel_of(double sigma, double own_variance, int orders) {
 template <class T>
 void add_glare(const Glare& glare, const Projection& projection, LayeredFrame<T>& frame) {
   const double pixel = largest_pixel_angle(projection), sigma = std::max(glare.sigma, 0.7 * pixel);
-  const int step = std::max(1, static_cast<int>(std::lround(0.35 * sigma / pixel)));
+  const int step = std::max(1, static_cast<int>(std::lround(0.5 * sigma / pixel)));
   SphereBlur sphere(sigma);
   const std::vector<GlarePart> parts = parts_of(projection);
   for (const GlarePart& part : parts) gather(part, step, frame.picture, sphere);

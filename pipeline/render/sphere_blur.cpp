@@ -11,6 +11,7 @@
 
 #include "pipeline/base/simd/dispatch.h"
 #include "pipeline/base/simd/lanes.h"
+#include "pipeline/base/simd/vector_math.h"
 
 namespace domefall {
 namespace {
@@ -104,7 +105,8 @@ SphereBlur::SphereBlur(double least_sigma)
       grid_(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_)) {}
 
 SphereBlur::Place SphereBlur::place(const CameraDirection& n) const {
-  const double theta = std::atan2(std::hypot(n.v.x, n.v.y), n.v.z), phi = std::atan2(n.v.y, n.v.x);
+  const double theta = arc_tangent2(std::sqrt(n.v.x * n.v.x + n.v.y * n.v.y), n.v.z),
+               phi = arc_tangent2(n.v.y, n.v.x);
   const double down = theta / step_ - 0.5, across = (phi + pi) / step_;
   const double row = std::floor(down), column = std::floor(across);
   return {static_cast<int>(row), static_cast<int>(column), static_cast<float>(down - row),
