@@ -46,6 +46,7 @@ void add_disc(Digest& digest, const std::optional<Disc>& disc) {
   for (const V3d& axis : {disc->normal.v, disc->node.v})
     for (const double v : {axis.x, axis.y, axis.z}) digest.add(rounded_for_key(v));
   digest.add(disc->t_max_k).add(disc->luminance).add(disc->opacity);
+  if (!disc->is_opaque()) digest.add(disc->optical_depth).add(disc->rim);
   digest.add(disc->plunging ? "plunging" : "stable");
   // Without a pattern the disc looks the same at all times, and slow light changes nothing.
   if (!disc->pattern) return;

@@ -19,6 +19,11 @@ double covered_part(const PlaneCrossings& pixel, const PlaneImages::Interval& ri
   return std::clamp(beyond_rim((p - rims.low) / per) - beyond_rim((p - rims.high) / per), 0.0, 1.0);
 }
 
+// Returns the part u of an image's interval at a label.
+double part_between(const PlaneImages::Interval& rims, double label) {
+  return std::clamp((label - rims.low) / (rims.high - rims.low), 0.0, 1.0);
+}
+
 }  // namespace
 
 DiscPass::DiscPass(const FrameScene& scene) : scene_(scene) {
@@ -51,8 +56,12 @@ double DiscPass::left_before(const CameraDirection& n, double psi, double width)
   for (int order = 0; order < plane_->images().orders(); ++order) {
     const double turn = pixel.turn[0] + order * pi;
     if (turn > psi - kInPlane) break;
-    const double covered = covered_part(pixel, plane_->images().interval(turn));
-    left *= 1 - scene_.state.settings.disc_opacity * covered;
+    const PlaneImages::Interval rims = plane_->images().interval(turn);
+    const double covered = covered_part(pixel, rims);
+    if (!(covered > 0)) continue;
+    const Gas gas = gas_at(pixel, 0, turn, pixel.label[0], part_between(rims, pixel.label[0]),
+                           pixel.azimuth_sine[0]);
+    left *= 1 - scene_.state.settings.disc_opacity * covered * gas.absorbed;
   }
   return left;
 }
@@ -62,10 +71,13 @@ DiscPass::Gas DiscPass::gas_at(const Crossings& crossings, int k, double turn, d
   const double r = 1 / plane_->images().inverse_radius(turn, u);
   const double energy = crossings.energy[k], momentum = plane_->momentum(label, energy);
   const double about = plane_->about_normal(azimuth_sine);
-  const GasOrbits& orbits = scene_.disc->disc().orbits;
+  const Disc& disc = scene_.disc->disc();
+  const GasOrbits& orbits = disc.orbits;
   const double shift = disc_shift(orbits, {energy, momentum, momentum * about}, r,
                                   r < orbits.last_stable() && goes_outward(turn, label, u));
-  return {r, crossings.rays.frequency[k] / shift};
+  // The ray's part along the normal, which the gas's motion in the plane leaves as it is.
+  const double across = momentum / r * std::sqrt(std::max(0.0, 1 - about * about));
+  return {r, crossings.rays.frequency[k] / shift, absorbed_part(disc, r, across / shift)};
 }
 
 // Says whether light sets out to larger radii.  If so, w grows along the ray back in time.
@@ -88,13 +100,12 @@ std::vector<DiscPass::Place> DiscPass::places(const CameraDirection& n, double w
     const PlaneImages::Interval rims = plane_->images().interval(turn);
     const double covered = covered_part(pixel, rims);
     if (!(covered > 0)) continue;
-    const double u = std::clamp((p - rims.low) / (rims.high - rims.low), 0.0, 1.0);
     const double sine = pixel.azimuth_sine[0];
-    const Gas gas = gas_at(pixel, 0, turn, p, u, sine);
+    const Gas gas = gas_at(pixel, 0, turn, p, part_between(rims, p), sine);
     const V3d place = plane_->place(turn, pixel.azimuth_cosine[0], sine);
     places.push_back({order, gas.r, std::atan2(place.dot(quarter_), place.dot(node_)),
                       gas.frequency_ratio, covered});
-    if (scene_.state.settings.disc_opacity * covered == 1) break;
+    if (scene_.state.settings.disc_opacity * covered * gas.absorbed == 1) break;
   }
   return places;
 }

@@ -66,9 +66,10 @@ class DiscPass {
   class Row;
   void draw(Row& line, int first, int end, float* rgb, float* left) const;
   void locate(const CameraDirection* n, const double* angle, int count, Crossings& crossings) const;
-  // Gas is at r, and its light is seen at `frequency_ratio` times the frequency that it has there.
+  // Gas is at r, and its light is seen at `frequency_ratio` times the frequency that it has there.  It
+  // absorbs this part of the light along the ray.
   struct Gas {
-    double r, frequency_ratio;
+    double r, frequency_ratio, absorbed;
   };
   // Returns the gas that a ray meets after `turn`, whose label is the part u of the image's interval.
   Gas gas_at(const Crossings& crossings, int k, double turn, double label, double u,

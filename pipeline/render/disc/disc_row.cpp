@@ -185,7 +185,8 @@ DiscPass::Row::Node DiscPass::Row::sighted(const Crossings& crossings, int k) co
     node.sight |= static_cast<unsigned>(place) << (2 * order);
     if (place == kBeneath || place == kAbove) continue;
     node.lit = true;
-    if (pass_.scene_.state.settings.disc_opacity == 1) break;
+    if (pass_.scene_.state.settings.disc_opacity == 1 && pass_.scene_.disc->disc().is_opaque())
+      break;
   }
   node.clearance = clearance;
   return node;
@@ -214,36 +215,37 @@ bool DiscPass::Row::draw_cell(std::size_t cell, std::size_t first, std::size_t l
                                                    cell_weights(2)};
   // The judges are the five nodes of the run around the cell, with `judge` as the first.
   const std::size_t judge = std::clamp(cell, first + 2, last - 2) - 2;
-  std::array<std::array<float, 3>, kJudges> judges;
+  // Three channels of light, and what is left of that from behind.
+  using Values = std::array<float, 4>;
+  std::array<Values, kJudges> judges;
   for (std::size_t k = 0; k < kJudges; ++k) {
-    const WorkingRgb& light = nodes_[judge + k].light;
-    judges[k] = {light.r, light.g, light.b};
+    const Node& node = nodes_[judge + k];
+    judges[k] = {exposure_ * node.light.r, exposure_ * node.light.g, exposure_ * node.light.b,
+                 node.left};
   }
   const float trust = cell == first || cell + 1 == last ? kNextToRim : 1;
-  for (std::size_t c = 0; c < 3; ++c) {
+  for (std::size_t c = 0; c < 4; ++c) {
     const auto third = [&](std::size_t k) {
       return judges[k + 3][c] - judges[k][c] + 3 * (judges[k + 1][c] - judges[k + 2][c]);
     };
-    const float before = third(0), after = third(1), light = trust * judges[2][c];
-    if (!(std::abs(before) <= kMostThird * light && std::abs(after) <= kMostThird * light &&
-          std::abs(after - before) <= kMostFourth * light))
+    const float before = third(0), after = third(1), size = trust * (c < 3 ? judges[2][c] : 1);
+    if (!(std::abs(before) <= kMostThird * size && std::abs(after) <= kMostThird * size &&
+          std::abs(after - before) <= kMostFourth * size))
       return false;
   }
   // The cubic goes through four nodes from `from` on, all of which are among the judges.
   const std::size_t from = std::clamp(cell, first + 1, last - 2) - 1;
-  const CellWeights& weights = kWeights[cell - from];
-  std::array<std::array<float, 3>, 4> values;
-  for (std::size_t k = 0; k < values.size(); ++k)
-    for (std::size_t c = 0; c < 3; ++c) values[k][c] = exposure_ * judges[from - judge + k][c];
-  const float left = nodes_[cell].left;
   const std::ptrdiff_t column = first_ + static_cast<std::ptrdiff_t>(cell) * kStep;
-  if (left_) std::fill_n(left_ + column, kStep, left);
   float* pixel = rgb + 3 * column;
-  for (const std::array<float, 4>& w : weights) {
-    for (std::size_t c = 0; c < 3; ++c)
-      pixel[c] = left * pixel[c] + (w[0] * values[0][c] + w[1] * values[1][c] +
-                                    w[2] * values[2][c] + w[3] * values[3][c]);
+  float* left = left_ ? left_ + column : nullptr;
+  for (const std::array<float, 4>& w : kWeights[cell - from]) {
+    Values at{};
+    for (std::size_t k = 0; k < w.size(); ++k)
+      for (std::size_t c = 0; c < 4; ++c) at[c] += w[k] * judges[from - judge + k][c];
+    at[3] = std::clamp(at[3], 0.0f, 1.0f);
+    for (std::size_t c = 0; c < 3; ++c) pixel[c] = at[3] * pixel[c] + at[c];
     pixel += 3;
+    if (left) *left++ = at[3];
   }
   return true;
 }

@@ -152,20 +152,23 @@ double DiscPass::Strip::gather_division(const Crossings& crossings, int k,
         beyond_rim((p - rims.high) / length(per, rims.high_slope * division.turn_per)),
         beyond_rim((p - rims.low) / length(per, rims.low_slope * division.turn_per))};
     if (!(share.to - share.from > 1e-5)) continue;
-    const double seen =
-        veil.lay(share.from, share.to, pass_.scene_.state.settings.disc_opacity) * division.part;
+    const Samples samples = sample(crossings, k, division, turn, rims, share);
+    const double absorbed = samples.absorbed / samples.count,
+                 opacity = pass_.scene_.state.settings.disc_opacity * absorbed,
+                 seen = veil.lay(share.from, share.to, opacity) * division.part;
     taken_[static_cast<std::size_t>(k)][static_cast<std::size_t>(order)] += seen;
-    shade(crossings, k, division, turn, rims, share, seen);
+    if (absorbed > 0) shade(crossings, k, division, turn, samples, seen / samples.absorbed);
     left = veil.left();
   }
   return left;
 }
 
-// Adds the light of the part of an image that a pixel sees.  This is the mean over that part of the
-// interval, with the pixel's own weights, so that all pixels together count each place once.
-void DiscPass::Strip::shade(const Crossings& crossings, int k, const Division& division,
-                            double turn, const PlaneImages::Interval& rims, const Share& share,
-                            double weight) {
+// Chooses places on the part of an image that a pixel sees: evenly over that part of the interval, so
+// that all pixels together count each place once.
+DiscPass::Strip::Samples DiscPass::Strip::sample(const Crossings& crossings, int k,
+                                                 const Division& division, double turn,
+                                                 const PlaneImages::Interval& rims,
+                                                 const Share& share) const {
   const double width = rims.high - rims.low, p = crossings.label[k];
   // `per` is the change of p across the pixel, relative to the image.  The slope of the image along
   // psi is interpolated between those of the two rims.
@@ -175,29 +178,39 @@ void DiscPass::Strip::shade(const Crossings& crossings, int k, const Division& d
   const auto label_at = [&](double covered) {
     return std::clamp(p - distance_to_rim(covered) * per, rims.low, rims.high);
   };
-  // `seen` is the part of the interval that the pixel covers.  There is one sample for each kPart.
+  // There is one sample for each kPart of the interval.
   const double seen = (label_at(share.from) - label_at(share.to)) / width;
   constexpr double kPart = 0.03;
-  constexpr int kMost = 32;
-  const int count = std::clamp(static_cast<int>(std::ceil(seen / kPart)), 1, kMost);
-  for (int n = 0; n < count; ++n) {
-    const double label = label_at(share.to + (share.from - share.to) * (n + 0.5) / count);
+  Samples samples;
+  samples.count = std::clamp(static_cast<int>(std::ceil(seen / kPart)), 1, kMostSamples);
+  samples.part = seen / samples.count;
+  for (int n = 0; n < samples.count; ++n) {
+    const double label = label_at(share.to + (share.from - share.to) * (n + 0.5) / samples.count);
     const double u = (label - rims.low) / width;
-    put(crossings, k, division, turn, label, u, weight / count);
-    if (pass_.pattern_) note_place(crossings, k, division, turn, u, seen / count);
-    if (count_ == kSize) flush();
+    const auto at = static_cast<std::size_t>(n);
+    samples.u[at] = u;
+    samples.gas[at] = pass_.gas_at(crossings, k, turn, label, u, division.azimuth_sine);
+    samples.absorbed += samples.gas[at].absorbed;
   }
+  return samples;
 }
 
-// Notes one sample: its radius, its frequency ratio g as the observer measures it, and its weight.
-void DiscPass::Strip::put(const Crossings& crossings, int k, const Division& division, double turn,
-                          double label, double u, double weight) {
-  const auto [r, g] = pass_.gas_at(crossings, k, turn, label, u, division.azimuth_sine);
-  samples_.r[count_] = static_cast<float>(r);
-  samples_.g[count_] = static_cast<float>(colour_ratio(effects_, g));
-  samples_.weight[count_] = static_cast<float>(weight * surface_brightness_ratio(effects_, g));
-  samples_.pixel[count_] = k;
-  ++count_;
+// Notes the samples with their radii, the frequency ratios g as the observer measures them, and their
+// weights.
+void DiscPass::Strip::shade(const Crossings& crossings, int k, const Division& division,
+                            double turn, const Samples& samples, double weight) {
+  for (int n = 0; n < samples.count; ++n) {
+    const auto at = static_cast<std::size_t>(n);
+    const auto [r, g, absorbed] = samples.gas[at];
+    samples_.r[count_] = static_cast<float>(r);
+    samples_.g[count_] = static_cast<float>(colour_ratio(effects_, g));
+    samples_.weight[count_] =
+        static_cast<float>(weight * absorbed * surface_brightness_ratio(effects_, g));
+    samples_.pixel[count_] = k;
+    ++count_;
+    if (pass_.pattern_) note_place(crossings, k, division, turn, samples.u[at], samples.part);
+    if (count_ == kSize) flush();
+  }
 }
 
 // Notes the place and the time of the last sample for the pattern.  `part` is the range of u that

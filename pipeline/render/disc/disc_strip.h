@@ -41,12 +41,21 @@ class DiscPass::Strip {
     double from, to;
   };
 
+  // Samples are the places at which a pixel looks at an image, each with an even part of u.
+  static constexpr int kMostSamples = 32;
+  struct Samples {
+    int count = 0;
+    double part = 0, absorbed = 0;  // of u, of one; the sum over all
+    std::array<double, kMostSamples> u;
+    std::array<Gas, kMostSamples> gas;
+  };
+
   double gather_by_divisions(const Crossings& crossings, int k);
   double gather_division(const Crossings& crossings, int k, const Division& division);
+  Samples sample(const Crossings& crossings, int k, const Division& division, double turn,
+                 const PlaneImages::Interval& rims, const Share& share) const;
   void shade(const Crossings& crossings, int k, const Division& division, double turn,
-             const PlaneImages::Interval& rims, const Share& share, double weight);
-  void put(const Crossings& crossings, int k, const Division& division, double turn, double label,
-           double u, double weight);
+             const Samples& samples, double weight);
   void note_place(const Crossings& crossings, int k, const Division& division, double turn,
                   double u, double part);
   void flush();

@@ -89,6 +89,7 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   disc.node = plane.node, disc.normal = plane.normal;
   disc.t_max_k = s.number("t_max_k");
   disc.luminance = s.number("luminance_cd_m2");
+  disc.optical_depth = s.number("optical_depth"), disc.rim = s.number("rim");
   disc.opacity = s.number("opacity");
   if (const Item* pattern = s.find("pattern")) disc.pattern = read_pattern(*pattern, disc.orbits);
   disc.slow_light = s.flag("slow_light");

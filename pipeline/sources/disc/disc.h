@@ -3,7 +3,9 @@
 // says what is drawn of it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <variant>
 
@@ -60,7 +62,10 @@ struct Disc {
   // This is the luminance of that ring for whoever moves with it, in cd/m^2.  All other light of
   // the disc follows.
   double luminance = 1e-3;
-  double opacity = 1;  // the part of the light from behind that it takes away, 0 to 1
+  // This is the optical depth through the disc at right angles; infinite gas is opaque.  Where `rim`
+  // is above 0, it thins out towards inner and outer radius, over this part of each.
+  double optical_depth = std::numeric_limits<double>::infinity(), rim = 0;
+  double opacity = 1;  // all that it takes away and sends is this part of what it would be, 0 to 1
   // This says whether matter falls in from the last stable orbit, and shines on its way.
   bool plunging = false;
   std::optional<PatternKind> pattern{};
@@ -68,11 +73,14 @@ struct Disc {
   // seen at once, as it is when light that falls straight in passes the observer (t = v).
   bool slow_light = true;
 
+  bool is_opaque() const { return std::isinf(optical_depth); }
+
   bool operator==(const Disc& other) const {
     return orbits == other.orbits && inner == other.inner && outer == other.outer &&
            normal.v == other.normal.v && node.v == other.node.v && pattern == other.pattern &&
            slow_light == other.slow_light && t_max_k == other.t_max_k &&
-           luminance == other.luminance && opacity == other.opacity && plunging == other.plunging;
+           luminance == other.luminance && opacity == other.opacity && plunging == other.plunging &&
+           optical_depth == other.optical_depth && rim == other.rim;
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "pipeline/base/simd/dispatch.h"
 #include "pipeline/base/simd/lanes.h"
+#include "pipeline/base/simd/vector_math.h"
 #include "pipeline/sources/colour/blackbody.h"
 #include "pipeline/sources/disc/disc.h"
 
@@ -207,6 +208,22 @@ void DiscLight::light(std::span<const float> r, std::span<const float> g,
       out[at + k] = {c.r * radiance[k], c.g * radiance[k], c.b * radiance[k]};
     }
   }
+}
+
+double absorbed_part(const Disc& disc, double r, double steepness) {
+  if (disc.is_opaque()) return 1;
+  const auto smooth = [](double x) {
+    const double t = std::clamp(x, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+  };
+  double depth = disc.optical_depth;
+  if (disc.rim > 0) {
+    depth *= smooth((1 - r / disc.outer) / disc.rim);
+    // Gas that falls into the hole has no rim there.
+    if (disc.inner > disc.orbits.horizon()) depth *= smooth((r / disc.inner - 1) / disc.rim);
+  }
+  constexpr double kGrazing = 1e-9;
+  return 1 - exponential(-depth / std::max(steepness, kGrazing));
 }
 
 DiscRay disc_ray(const RayInvariants& ray, const V3d& place, const V3d& tangent,

@@ -94,6 +94,11 @@ class DiscLight {
   std::vector<float> table_;
 };
 
+// Returns the part of the light along a ray that gas at r absorbs and replaces by its own.  The ray
+// leaves the disc at an angle whose cosine is `steepness` for the gas, 0 to 1, so that the optical
+// depth along it is the disc's over that cosine.
+double absorbed_part(const Disc& disc, double r, double steepness);
+
 // The shift of a disc's light on its way to an observer follows from a DiscRay, which holds what
 // decides it of a view ray.  Gas on a circular orbit has u^t and turns with Omega (gas_orbits.h)
 // about the disc's axis n.  It sends light of the ray with E, L at (M = 1)

@@ -41,13 +41,27 @@ class FollowedDisc {
     for (const ReferenceDiscPlace& place : reference_disc(view_, array_of(n))) {
       sight.orders |= 1 << place.order;
       const double t = disc_.t_max_k * place.temperature / place.one_plus_z;
-      sight.nits += left * disc_.opacity * scale_ * luminance_of(t);
-      left *= 1 - disc_.opacity;
+      const double absorbed = disc_.opacity * absorbed_at(place);
+      sight.nits += left * absorbed * scale_ * luminance_of(t);
+      left *= 1 - absorbed;
     }
     return sight;
   }
 
  private:
+  // A slab of even gas, summed in layers from the back to the front.
+  double absorbed_at(const ReferenceDiscPlace& place) const {
+    if (std::isinf(disc_.optical_depth)) return 1;
+    const auto thinned = [](double x) { return x < 1 ? x * x * (3 - 2 * x) : 1; };
+    double depth = disc_.optical_depth / place.steepness;
+    if (disc_.rim > 0)
+      depth *= thinned((disc_.outer - place.r) / (disc_.rim * disc_.outer)) *
+               thinned((place.r - disc_.inner) / (disc_.rim * disc_.inner));
+    constexpr int kLayers = 2000;
+    double light = 0;
+    for (int k = 0; k < kLayers; ++k) light += (1 - light) * depth / (kLayers + depth / 2);
+    return light;
+  }
   static double luminance_of(double temperature) {
     return temperature > 500 ? blackbody_xyz(temperature).y : 0;
   }
@@ -86,6 +100,23 @@ std::vector<DiscView> twenty_views() {
   views.push_back({{kI, kRain, 10, {3, 1, -2}}, V3d(0.01, -1, 0), disc_from(6, 30, 0.6)});
   views.push_back({{kI, kOut, 10, {-0.5, 0.3, 0.1}}, V3d(0.7, 0.7, 0.1), usual});
   views.push_back({{kI, kOut, 2.5, {0.1, 0, 0.2}}, V3d(-0.5, 0.7, 0.1), falling});
+  return views;
+}
+
+// Gas that lets light through, the more of it the steeper the ray, and thins out at its rims.
+std::vector<DiscView> translucent_views() {
+  std::vector<DiscView> views;
+  for (const double depth : {0.3, 1.0, 3.0}) {
+    Disc disc = disc_from(6, 20, 1);
+    disc.optical_depth = depth, disc.rim = 0.3;
+    for (const double degrees : {80.0, 25.0, 6.0})
+      views.push_back(
+          {{Region::kI, Tetrad::kRain, 40, celerity_of_rest(40)}, normal_seen_from(degrees), disc});
+    views.push_back({{Region::kI, Tetrad::kRain, 12, {0.4, -0.2, 0.5}}, V3d(0.3, -1, 0), disc});
+    Disc falling = disc_from(2.5, 12, 0.8, true);
+    falling.optical_depth = depth, falling.rim = 0.1;
+    views.push_back({{Region::kII, Tetrad::kRain, 1.5, {0, 0, 0}}, V3d(0.2, -1, 0.4), falling});
+  }
   return views;
 }
 
@@ -152,6 +183,21 @@ TEST(DiscPixels, AreThoseOfTheRaysInTwentyViews) {
   EXPECT_GT(compared.pixels, tries(100, 20));
   EXPECT_GT(compared.from_beneath, tries(3, -1));
   EXPECT_GT(compared.dark, tries(40, 8));
+}
+
+TEST(DiscPixels, OfGasThatLetsLightThroughAreThoseOfTheRays) {
+  const Compared compared = compare_with_rays(translucent_views(), 4, 80);
+  EXPECT_GT(compared.pixels, tries(60, 12));
+  EXPECT_GT(compared.from_beneath, tries(3, -1));
+}
+
+TEST(DiscPixels, OfDeepGasAreThoseOfAnOpaqueDisc) {
+  DiscView view{{Region::kI, Tetrad::kRain, 15, {0.1, 0.2, 0}}, normal_seen_from(12), Disc{}};
+  const FloatImage opaque = render_floats(disc_show(view, Domemaster{tries(200, 64)}));
+  view.disc.optical_depth = 1e6;
+  const FloatImage deep = render_floats(disc_show(view, Domemaster{tries(200, 64)}));
+  for (std::size_t k = 0; k < opaque.pixels.size(); ++k)
+    ASSERT_NEAR(deep.pixels[k], opaque.pixels[k], 1e-4f * opaque.pixels[k]);
 }
 
 // From afar and near, amid the gas, next to the circle of light, beside the horizon and behind it.

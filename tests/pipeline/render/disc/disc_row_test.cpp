@@ -38,12 +38,19 @@ Disc disc_of(double opacity, bool plunging = false) {
   return disc;
 }
 
+Disc translucent() {
+  Disc disc = disc_of(1);
+  disc.optical_depth = 1, disc.rim = 0.3;
+  return disc;
+}
+
 // Far away and near, above the plane and in it, between the images, inside the horizon, and fast.
 std::vector<DiscView> views() {
   constexpr Region kI = Region::kI;
   constexpr Tetrad kRain = Tetrad::kRain;
   return {{{kI, kRain, 15, celerity_of_rest(15)}, normal_seen_from(10), disc_of(1)},
           {{kI, kRain, 40, celerity_of_rest(40)}, normal_seen_from(80), disc_of(0.6)},
+          {{kI, kRain, 18, celerity_of_rest(18)}, normal_seen_from(50), translucent()},
           {{kI, kRain, 30, celerity_of_rest(30)}, normal_seen_from(0.3), disc_of(0.8)},
           {{kI, kRain, 12, {0.4, -0.2, 0.5}}, normal_seen_from(1), disc_of(1)},
           {{kI, kRain, 9, celerity_of_rest(9)}, normal_seen_from(0), disc_of(1)},

@@ -262,8 +262,10 @@ std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
       if (r > end && r >= view.inner && r <= view.outer) {
         // at[6] is v there less the observer's v, which is u + 2 r* of the observer.
         const double own = view.r + 2 * std::log(view.r / 2 - 1);
-        found.push_back({order, r, azimuth_of(at.place(), view.normal), shift(ray, at, view),
-                         gas_of(view).temperature(r), -at[6] - (view.outgoing ? 2 * own : 0)});
+        const double sent = shift(ray, at, view);
+        found.push_back({order, r, azimuth_of(at.place(), view.normal), sent,
+                         std::abs(dot(at.rate(), view.normal)) / sent, gas_of(view).temperature(r),
+                         -at[6] - (view.outgoing ? 2 * own : 0)});
       }
       ++order;
     }

@@ -36,6 +36,7 @@ struct ReferenceDiscPlace {
   double r;           // M
   double azimuth;     // in the plane, from R's part in it (from Theta's if it has none), radians
   double one_plus_z;  // frequency sent over the one that the observer measures
+  double steepness;   // the cosine, for the gas, of the angle between ray and normal, 0 to 1
   // This is the temperature of the gas over that of the hottest ring outside the last stable orbit.  The observer sees
   // a blackbody of temperature/one_plus_z, whose bolometric radiance is the fourth power of that.
   double temperature;
