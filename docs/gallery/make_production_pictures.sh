@@ -36,7 +36,7 @@ dark=(8 24 36 56 70 86 100 110 118 122 128 137)
 flyby=(8 16 22 27 34 41 47 56 67 76 86 98)
 kruskal=(5 10 13 16 22 30 36 58 64 86 93 124)
 back=(8 22 36 48 62 68 71 75 84 98 108 115)
-next=(8 20 36 43 48 52 56 67 78 83 91 108)
+next=(8 24 40 52 54 59 67 83 90 97 104 114)
 mkdir -p "$out"
 render into_the_dark "${dark[@]}"
 render flyby "${flyby[@]}"
@@ -52,7 +52,7 @@ for second in 56 86 128; do single into_the_dark "$second"; done
 for second in 27 56 86; do single flyby "$second"; done
 for second in 13 64 93; do single kruskal_journey "$second"; done
 for second in 48 71 84; do single there_and_back "$second"; done
-for second in 67 83 108; do single next_universe "$second"; done
+for second in 67 90 114; do single next_universe "$second"; done
 
 "$domefall" render shows/horizon_strip.yaml --size 4k --out "$out/horizon_strip"
 strip=()
