@@ -214,7 +214,7 @@ double absorbed_part(const Disc& disc, double r, double steepness) {
   if (disc.is_opaque()) return 1;
   const auto smooth = [](double x) {
     const double t = std::clamp(x, 0.0, 1.0);
-    return t * t * (3 - 2 * t);
+    return t * t * t * (t * (6 * t - 15) + 10);
   };
   double depth = disc.optical_depth;
   if (disc.rim > 0) {

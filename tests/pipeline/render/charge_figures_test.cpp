@@ -139,7 +139,9 @@ TEST_P(ChargeFigures, ShowOnBothSidesOfTheirEdgesWhatThePageSays) {
   EXPECT_TRUE(beyond.known);
   EXPECT_EQ(beyond.sky, own_sky(state.observer));
   EXPECT_EQ(within.known, name == "next" || name == "naked");
-  if (within.known) EXPECT_EQ(within.sky, SkyRegion::kI);
+  if (within.known) {
+    EXPECT_EQ(within.sky, SkyRegion::kI);
+  }
   if (name == "naked") {
     EXPECT_GT(within.swept, 2 * pi);
     EXPECT_GT(beyond.swept, 2 * pi);

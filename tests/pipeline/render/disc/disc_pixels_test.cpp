@@ -52,7 +52,7 @@ class FollowedDisc {
   // A slab of even gas, summed in layers from the back to the front.
   double absorbed_at(const ReferenceDiscPlace& place) const {
     if (std::isinf(disc_.optical_depth)) return 1;
-    const auto thinned = [](double x) { return x < 1 ? x * x * (3 - 2 * x) : 1; };
+    const auto thinned = [](double x) { return x < 1 ? x * x * x * (10 - 15 * x + 6 * x * x) : 1; };
     double depth = disc_.optical_depth / place.steepness;
     if (disc_.rim > 0)
       depth *= thinned((disc_.outer - place.r) / (disc_.rim * disc_.outer)) *
