@@ -185,9 +185,8 @@ Exposure read_exposure(const Section& show) {
 Glare read_glare(const Section& show, const Show& of) {
   const Section s(show.find("glare"), {"glare"});
   constexpr double kBesideGlowingMatter = 0.12;
-  const bool glows = of.disc || std::ranges::any_of(of.bodies, [](const Body& body) {
-                       return body.radius > 0;
-                     });
+  const bool glows =
+      of.disc || std::ranges::any_of(of.bodies, [](const Body& body) { return body.radius > 0; });
   return {s.number("share", glows ? kBesideGlowingMatter : 0), s.angle("width_deg")};
 }
 
