@@ -35,13 +35,15 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, wormhole, "
        "camera, "
-       "effects, sky, stars, disc, bodies, exposure, glare, grade, dome, output, begins_year, cameras, "
+       "effects, sky, stars, disc, bodies, exposure, glare, grade, dome, output, begins_year, "
+       "cameras, "
        "keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or timeline), got a "
        "list"},
       {"hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, wormhole, "
        "camera, "
-       "effects, sky, stars, disc, bodies, exposure, glare, grade, dome, output, begins_year, cameras, "
+       "effects, sky, stars, disc, bodies, exposure, glare, grade, dome, output, begins_year, "
+       "cameras, "
        "keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or timeline), got "
        "'hello'"},
       {"timeline:\n	- {duration_s: 2}\n", "2:1: a tab cannot indent YAML; use spaces"},
@@ -68,7 +70,8 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
       {"projection: domemaster",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
        "wormhole, "
-       "camera, effects, sky, stars, disc, bodies, exposure, glare, grade, dome, output, begins_year, "
+       "camera, effects, sky, stars, disc, bodies, exposure, glare, grade, dome, output, "
+       "begins_year, "
        "cameras, keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or "
        "timeline"},
       {"exposre: {ev: 1}", "3:1: exposre is an unknown key; did you mean exposure?"},
