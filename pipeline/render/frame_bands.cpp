@@ -89,20 +89,6 @@ class BandLayers {
     std::copy_n(rgb, before.size(), before.begin());
   }
 
-  // Moves the light of blobs from one layer to another.
-  void move(Layer from, Layer to, const BlobLayer& blobs, SplatBuffer& splats) {
-    std::vector<float>& moved = rows_.moved;
-    moved.assign(kBandRows * 3 * static_cast<std::size_t>(frame_.picture.width), 0);
-    blobs.draw_band(first_ / kBandRows, splats, moved.data());
-    const auto add = [&](Layer layer, float sign) {
-      if (!is_drawn(layer)) return;
-      std::vector<float>& light = light_of(layer);
-      for (std::size_t k = 0; k < light.size(); ++k) light[k] += sign * moved[k];
-    };
-    add(from, -1);
-    add(to, 1);
-  }
-
   // Returns where a disc says how much of the light behind it is left.
   float* left() { return rows_.left.data(); }
   // As take, of a layer that leaves that part of all light behind it and hides the rest.
@@ -284,6 +270,7 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
       sky.fill_band(band, rgb.data());
     else
       std::fill(rgb.begin(), rgb.end(), 0.0f);
+    if (drawn.crowded_skies) drawn.crowded_skies->draw_band(band, splats, rgb.data());
     std::optional<BandLayers<T>> layers;
     if (!frame.layers.empty()) layers.emplace(frame, memory.layers.local(), first, end);
     if (layers) layers->take(Layer::kSky, rgb.data());
@@ -296,8 +283,6 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
     stars.draw_band(band, splats, rgb.data());
     if (stars_end) stars_end->end_stars(rgb.data());
     if (layers) layers->take(Layer::kStars, rgb.data());
-    if (layers && drawn.crowded_skies)
-      layers->move(Layer::kStars, Layer::kSky, *drawn.crowded_skies, splats);
     if (drawn.disc) {
       drawn.disc->draw_rows(first, end, rgb.data(), layers ? layers->left() : nullptr);
       if (layers) layers->take_hiding(Layer::kDisc, rgb.data());

@@ -23,7 +23,7 @@ struct RenderStopped {};
 
 // LayerRows are the memory in which the light of a band is divided among layers.
 struct LayerRows {
-  std::vector<float> before, left, moved;
+  std::vector<float> before, left;
   std::array<std::vector<float>, kLayers.size()> light;
   std::array<bool, kLayers.size()> taken;
   std::optional<Layer> hider;  // the layer that leaves `left` of what is behind it
@@ -44,10 +44,10 @@ struct BandMemory {
 
 // DrawnLight is what is drawn over the skies, in this order.  What is null is not there.
 struct DrawnLight {
-  // Stars end at the borders, if there are any; skies that are drawn as blobs are among the stars.
+  const BlobLayer* crowded_skies = nullptr;  // those that are drawn as blobs
+  // Stars end at the borders, if there are any.
   const BlobLayer* stars = nullptr;
   const SkyBorders* borders = nullptr;
-  const BlobLayer* crowded_skies = nullptr;  // these alone, for frames with layers
   const DiscPass* disc = nullptr;
   const BlobLayer* bodies = nullptr;
   const MattePass* mattes = nullptr;  // of all of this, for frames with mattes

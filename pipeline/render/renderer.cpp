@@ -344,26 +344,22 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
     BlobLayer& stars = memory_->stars;
     stars.start(scene.projection());
     lay_stars(scene, memory_->images, stars);
-    UnresolvedSkies unresolved = find_unresolved_skies(scene);
-    stars.add(unresolved.blobs);
     stars.sort_into_bands();
+    UnresolvedSkies unresolved = find_unresolved_skies(scene);
     BlobLayer& crowded = memory_->crowded_skies;
-    const bool divided = !unresolved.blobs.empty() && !image.layers.empty();
-    if (divided) {
+    const bool crowds = !unresolved.blobs.empty();
+    if (crowds) {
       crowded.start(scene.projection());
       crowded.add(unresolved.blobs);
       crowded.sort_into_bands();
     }
-    // The blob of an unresolved sky is in the same layer as the stars, and must not be cut off at
-    // the border of that sky.
     std::optional<SkyBorders> borders;
-    if (scene.plan.gravity && scene.effects.lensing && unresolved.blobs.empty() &&
-        stars.size() > 0) {
+    if (scene.plan.gravity && scene.effects.lensing && stars.size() > 0) {
       // Straight light has no silhouette, and without stars there is nothing to end.
       borders.emplace(scene.tracer, scene.projection());
       if (!borders->usable()) borders.reset();
     }
-    times.images = stars.size() - unresolved.blobs.size();
+    times.images = stars.size();
     times.stars_s = watch.lap();
     memory_->bands.throw_if_stopped();
     const SkyPass sky(scene, anti_aliasing_, std::move(unresolved.darkened), memory_->grid);
@@ -383,9 +379,9 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
     times.stars_s += watch.lap();
     memory_->bands.throw_if_stopped();
     draw_bands(scene, sky,
-               {.stars = &stars,
+               {.crowded_skies = crowds ? &crowded : nullptr,
+                .stars = &stars,
                 .borders = borders ? &*borders : nullptr,
-                .crowded_skies = divided ? &crowded : nullptr,
                 .disc = disc_or_none,
                 .bodies = bodies ? &*bodies : nullptr,
                 .mattes = mattes ? &*mattes : nullptr},

@@ -63,10 +63,18 @@ double radius_of(const ViewCurve& curve) {
 }  // namespace
 
 SkyBorders::SkyBorders(const ViewTracer& tracer, const Projection& projection) {
+  const double least = kLeastRadius * largest_pixel_angle(projection);
   for (const SkyBorder& border : tracer.borders()) {
     curves_.push_back(border.sky_within ? reversed(border.curve) : border.curve);
     skies_.push_back(border.sky);
-    usable_ = usable_ && radius_of(border.curve) > kLeastRadius * largest_pixel_angle(projection);
+    ends_.push_back(curves_.back());
+    if (radius_of(border.curve) > least) continue;
+    // The stars of a sky in a window of a few pixels end a little beyond it.
+    const auto* window = border.sky_within ? std::get_if<ViewCircle>(&border.curve) : nullptr;
+    if (window)
+      ends_.back() = reversed(ViewCircle{window->axis, std::cos(2 * least), std::sin(2 * least)});
+    else
+      usable_ = false;
   }
   usable_ = usable_ && !curves_.empty();
   if (usable_) find_box(projection);
@@ -74,7 +82,7 @@ SkyBorders::SkyBorders(const ViewTracer& tracer, const Projection& projection) {
 
 SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reach) const {
   bool dark = true;
-  for (const ViewCurve& curve : curves_) {
+  for (const ViewCurve& curve : ends_) {
     const double off = beyond(curve, n.v);
     if (off < -reach) return Sight::kSky;
     dark = dark && off > reach;
@@ -84,7 +92,7 @@ SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reac
 
 double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) const {
   double part = 0;
-  for (const ViewCurve& curve : curves_) part += part_within(curve, n, pixel_angle);
+  for (const ViewCurve& curve : ends_) part += part_within(curve, n, pixel_angle);
   return std::min(part, 1.0);
 }
 
@@ -107,7 +115,7 @@ void SkyBorders::find_box(const Projection& projection) {
   // On an image of the whole sphere that is no dome, a rim that crosses its edge, or goes around a
   // pole, is no closed curve.
   if (has_zenith(projection) && !traits_of(projection).is_dome) return;
-  const auto* circle = std::get_if<ViewCircle>(&curves_.front());
+  const auto* circle = std::get_if<ViewCircle>(&ends_.front());
   if (!circle) return;
   const ViewCircle& c = *circle;
   // If the rim goes around -Z, the one direction without an image, what the rim encloses lies

@@ -20,7 +20,7 @@ class SkyBorders {
   // Finds the borders of a lensed view.
   SkyBorders(const ViewTracer& tracer, const Projection& projection);
 
-  // Says whether there is a border, and whether all are so large that no pixel holds a whole one.
+  // Says whether there is a border at which stars must end.  Around a hole of a few pixels there is none.
   bool usable() const { return usable_; }
   // A Sight says what pixels see: every one of them a sky as a whole (kSky), or none of them any
   // (kNoSky).  kBoth stands for all else, and may be given in the other two cases too.
@@ -43,6 +43,7 @@ class SkyBorders {
   // The sky of each lies where n.axis < cosine, or outside the polygon.
   std::vector<ViewCurve> curves_;
   std::vector<SkyRegion> skies_;  // of each curve
+  std::vector<ViewCurve> ends_;   // where the stars of each end
   bool usable_ = true;
   std::optional<PixelBox> box_;
 };

@@ -53,6 +53,32 @@ TEST(SkyBorders, AreWhereTracedRaysChangeTheirSky) {
   }
 }
 
+// A sky that begins as a point in the dark lets no star of another sky shine into the dark.
+TEST(SkyBorders, EndStarsWhileAWindowOpens) {
+  for (const double r : {1.9999, 1.999, 1.99, 1.97, 1.9}) {
+    const Show show =
+        starry(show_of(GivenVelocity{Region::kII, Tetrad::kRain, r, {0, 0, 0}}, Domemaster{256}));
+    const FrameState state = frame_state(show, 0);
+    const SkyBorders borders(ViewTracer(state, kAllSkies), state.projection);
+    ASSERT_TRUE(borders.usable());
+    FloatImage frame;
+    Renderer(show, 1).render(state, frame);
+    int dark = 0;
+    for (int row = 0; row < frame.height; ++row)
+      for (int column = 0; column < frame.width; ++column) {
+        const PixelPosition pixel{column + 1.0, row + 1.0};
+        const CameraDirection n = direction_at(state.projection, pixel);
+        if (!is_inside(state.projection, pixel) ||
+            borders.sight_around(n, pixel_angle(state.projection, pixel)) !=
+                SkyBorders::Sight::kNoSky)
+          continue;
+        ++dark;
+        ASSERT_EQ(frame.row(row)[3 * column], 0) << r << ", " << column << ", " << row;
+      }
+    EXPECT_GT(dark, 1000) << r;
+  }
+}
+
 // What is said of a neighbourhood holds for each of its pixels.  Of random ones a border's circle
 // meets a part of `reach`, since the component along its axis is spread evenly from -1 to 1.
 TEST(SkyBorders, KnowWhatNeighbourhoodsSee) {
