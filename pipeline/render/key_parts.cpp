@@ -39,7 +39,7 @@ void add_effects(Digest& digest, const Effects& e) {
 void add_disc(Digest& digest, const std::optional<Disc>& disc) {
   if (!disc) return;
   // This is raised with every change that alters the pixels of discs alone.
-  constexpr int kDiscVersion = 2;
+  constexpr int kDiscVersion = 3;
   digest.add("disc").add(kDiscVersion).add(disc->inner).add(disc->outer);
   // The axes come from sines, which differ between processors.  The other numbers stand in the
   // show.

@@ -14,9 +14,12 @@ using std::numbers::pi;
 
 // Returns the part of a pixel that an image covers, which lies beyond its outer rim and not beyond its
 // inner rim.
-double covered_part(const PlaneCrossings& pixel, const PlaneImages::Interval& rims) {
+double covered_part(const PlaneCrossings& pixel, const PlaneImages::Interval& rims, double r) {
   const double p = pixel.label[0], per = pixel.label_per[0];
-  return std::clamp(beyond_rim((p - rims.low) / per) - beyond_rim((p - rims.high) / per), 0.0, 1.0);
+  const auto beyond = [&](double rim) {
+    return beyond_rim((p - rim) / per * label_bend(p, rim, r));
+  };
+  return std::clamp(beyond(rims.low) - beyond(rims.high), 0.0, 1.0);
 }
 
 // Returns the part u of an image's interval at a label.
@@ -57,7 +60,7 @@ double DiscPass::left_before(const CameraDirection& n, double psi, double width)
     const double turn = pixel.turn[0] + order * pi;
     if (turn > psi - kInPlane) break;
     const PlaneImages::Interval rims = plane_->images().interval(turn);
-    const double covered = covered_part(pixel, rims);
+    const double covered = covered_part(pixel, rims, scene_.state.observer.r);
     if (!(covered > 0)) continue;
     const Gas gas = gas_at(pixel, 0, turn, pixel.label[0], part_between(rims, pixel.label[0]),
                            pixel.azimuth_sine[0]);
@@ -75,6 +78,7 @@ DiscPass::Gas DiscPass::gas_at(const Crossings& crossings, int k, double turn, d
   const GasOrbits& orbits = disc.orbits;
   const double shift = disc_shift(orbits, {energy, momentum, momentum * about}, r,
                                   r < orbits.last_stable() && goes_outward(turn, label, u));
+  if (disc.is_opaque()) return {r, crossings.rays.frequency[k] / shift, 1};
   // The ray's part along the normal, which the gas's motion in the plane leaves as it is.
   const double across = momentum / r * std::sqrt(std::max(0.0, 1 - about * about));
   return {r, crossings.rays.frequency[k] / shift, absorbed_part(disc, r, across / shift)};
@@ -98,7 +102,7 @@ std::vector<DiscPass::Place> DiscPass::places(const CameraDirection& n, double w
   for (int order = 0; order < plane_->images().orders(); ++order) {
     const double turn = pixel.turn[0] + order * pi;
     const PlaneImages::Interval rims = plane_->images().interval(turn);
-    const double covered = covered_part(pixel, rims);
+    const double covered = covered_part(pixel, rims, scene_.state.observer.r);
     if (!(covered > 0)) continue;
     const double sine = pixel.azimuth_sine[0];
     const Gas gas = gas_at(pixel, 0, turn, p, part_between(rims, p), sine);

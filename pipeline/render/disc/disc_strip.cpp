@@ -148,9 +148,11 @@ double DiscPass::Strip::gather_division(const Crossings& crossings, int k,
     if (p + per < images.least(order) || p - per > images.greatest(order)) continue;
     const double turn = division.turn + order * pi;
     const PlaneImages::Interval rims = images.interval(turn);
-    const Share share{
-        beyond_rim((p - rims.high) / length(per, rims.high_slope * division.turn_per)),
-        beyond_rim((p - rims.low) / length(per, rims.low_slope * division.turn_per))};
+    const auto beyond = [&](double rim, double slope) {
+      return beyond_rim((p - rim) / length(per, slope * division.turn_per) *
+                        label_bend(p, rim, pass_.scene_.state.observer.r));
+    };
+    const Share share{beyond(rims.high, rims.high_slope), beyond(rims.low, rims.low_slope)};
     if (!(share.to - share.from > 1e-5)) continue;
     const Samples samples = sample(crossings, k, division, turn, rims, share);
     const double absorbed = samples.absorbed / samples.count,

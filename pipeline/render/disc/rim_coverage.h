@@ -22,6 +22,17 @@ inline double beyond_rim(double distance) {
   return distance < 0 ? 1 - more : more;
 }
 
+// Returns 1, or near the middle of the hole the factor from the difference between the labels of a pixel
+// and a rim, in units of the label's change across the pixel, to their distance in pixels.  A label is
+// much like the cotangent of the angle from the hole over the observer's r, so that in the pixels of the
+// middle it changes by as much as itself, and a rim far away would seem to be next to them.  Elsewhere
+// nothing may bend the weights, which add up to a constant.
+inline double label_bend(double label, double rim, double r) {
+  constexpr double kFar = 3;
+  const double a = label * r, b = rim * r, bend2 = (1 + a * a) / (1 + b * b);
+  return bend2 > kFar * kFar ? std::sqrt(bend2) : 1;
+}
+
 // Inverts beyond_rim() for parts from 0 to 1.
 inline double distance_to_rim(double part) {
   const double less = std::min(part, 1 - part);

@@ -248,7 +248,7 @@ constexpr std::string_view kRows = R"(
 | `type` | `turbulence`, `rings`, `spot` or `none`: a pattern with the keys below | required |
 ## turbulence
 | `contrast` | 0 to 1: with 1 the gaps go dark | [1] |
-| `orbits` | 0.5 to 20 orbits: of its place, as long as a filament lives | [2] |
+| `orbits` | 0.5 to 20 orbits: of its place, as long as a filament lives: the longer, the more is it wound up | [1] |
 | `seed` | 0 to 1e9: a whole number; another one is another pattern of the same kind | [1] |
 ## rings
 | `spacing_r` | 0.01 to 1000: from one ring to the next | [2] |

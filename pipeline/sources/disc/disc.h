@@ -20,7 +20,7 @@ namespace domefall {
 // replaced.
 struct TurbulencePattern {
   double contrast = 1;  // 0 to 1; 1 lets the gaps go dark
-  double orbits = 2;    // the life of a filament, in orbits of its place
+  double orbits = 1;    // the life of a filament, in orbits of its place
   std::uint32_t seed = 1;
 
   bool operator==(const TurbulencePattern&) const = default;

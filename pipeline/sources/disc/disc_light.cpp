@@ -212,17 +212,18 @@ void DiscLight::light(std::span<const float> r, std::span<const float> g,
 
 double absorbed_part(const Disc& disc, double r, double steepness) {
   if (disc.is_opaque()) return 1;
-  const auto smooth = [](double x) {
-    const double t = std::clamp(x, 0.0, 1.0);
-    return t * t * t * (t * (6 * t - 15) + 10);
-  };
   double depth = disc.optical_depth;
+  const auto thin_out = [&depth, &disc](double way) {
+    const double t = way / disc.rim;
+    if (t < 1) depth *= t > 0 ? t * t * t * (t * (6 * t - 15) + 10) : 0;
+  };
   if (disc.rim > 0) {
-    depth *= smooth((1 - r / disc.outer) / disc.rim);
+    thin_out(1 - r / disc.outer);
     // Gas that falls into the hole has no rim there.
-    if (disc.inner > disc.orbits.horizon()) depth *= smooth((r / disc.inner - 1) / disc.rim);
+    if (disc.inner > disc.orbits.horizon()) thin_out(r / disc.inner - 1);
   }
-  constexpr double kGrazing = 1e-9;
+  constexpr double kOpaque = 40, kGrazing = 1e-9;
+  if (depth > kOpaque * steepness) return 1;
   return 1 - exponential(-depth / std::max(steepness, kGrazing));
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "pipeline/base/simd/dispatch.h"
 #include "pipeline/base/simd/vector_math.h"
@@ -12,19 +13,10 @@ namespace domefall {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr int kSizes = Turbulence::kSizes;
-// This is the width of the widest rows, in ln r.  Grains of each size are half as large as those
-// before.
+// This is the width of rows, in ln r.
 constexpr double kRowWidth = 0.16, kOutermost = 1e6, kOutermostLog = 14;
-// Rows of different sizes do not end at the same places.
-constexpr float kRowsApart = 0.37f;
 // A spline reaches so many rows, and so many generations live at the same time.
 constexpr int kReach = 3;
-// Each size has its part of all light, the number of grains in a row, and the standard deviation of
-// one along the row, in turns.
-constexpr std::array<float, kSizes> kParts{0.45f, 0.33f, 0.22f};
-constexpr std::array<int, kSizes> kGrains{3, 4, 6};
-constexpr std::array<float, kSizes> kSpread{0.03f, 0.016f, 0.008f};
 // The shear draws out gas that plunges, so that from this part of the last stable orbit inwards it
 // is even.
 constexpr double kEvenBelow = 2.0 / 3;
@@ -42,14 +34,119 @@ constexpr std::size_t kPlacesAtOnce = 128;
   return mixed(a ^ (b * 0x9e3779b9u + 0x7f4a7c15u));
 }
 
+// ---- the noise ----
+
+// A NoiseTile is a picture of gas that nothing has drawn out yet, log-normal as simulations have it, with
+// structure of all sizes from a sixteenth of a turn down.  It repeats in ln r and around the ring.  Each
+// row has a mean of 1.  The levels i, j have the means over 2^i rows and 2^j columns, side by side and one
+// below the other.
+class NoiseTile {
+ public:
+  static constexpr int kLogRows = 9, kLogColumns = 11, kTileRows = 1 << kLogRows,
+                       kTileColumns = 1 << kLogColumns;
+  static constexpr double kRowsOfGas = 4;  // its height, in rows of kRowWidth
+
+  NoiseTile() {
+    Grid grid{.rows = kTileRows >> kOctaves, .columns = kTileColumns >> kOctaves};
+    grid.values.resize(static_cast<std::size_t>(grid.rows * grid.columns));
+    double part = 1;
+    for (std::uint32_t octave = 0; octave <= kOctaves; ++octave, part *= kFiner) {
+      if (octave > 0) grid = refined(grid);
+      for (std::size_t k = 0; k < grid.values.size(); ++k)
+        grid.values[k] += part * even(lattice_key(octave, static_cast<std::uint32_t>(k)));
+    }
+    make_light(grid);
+    // Means over two columns, and over two rows.
+    for (int i = 0; i <= kLogRows; ++i)
+      for (int j = i > 0 ? 0 : 1; j <= kLogColumns; ++j)
+        for (int row = 0; row < kTileRows >> i; ++row)
+          for (int column = 0; column < kTileColumns >> j; ++column)
+            texel(i, j, row, column) = j > 0 ? 0.5f * (texel(i, j - 1, row, 2 * column) +
+                                                       texel(i, j - 1, row, 2 * column + 1))
+                                             : 0.5f * (texel(i - 1, 0, 2 * row, column) +
+                                                       texel(i - 1, 0, 2 * row + 1, column));
+  }
+
+  const float* texels() const { return texels_.data(); }
+  // Returns the number of the first texel of a row of a level, and that of a column within a row.
+  [[gnu::always_inline]] static int row_at(int level, int row) {
+    return (2 * kTileRows - (2 * kTileRows >> level) + row) * 2 * kTileColumns;
+  }
+  [[gnu::always_inline]] static int column_at(int level, int column) {
+    return 2 * kTileColumns - (2 * kTileColumns >> level) + column;
+  }
+
+ private:
+  static constexpr int kOctaves = 7;
+  static constexpr double kFiner = 0.72;    // of an octave's amplitude against that before
+  static constexpr double kContrast = 2.4;  // the standard deviation of the logarithm
+  struct Grid {
+    int rows, columns;
+    std::vector<double> values{};
+  };
+
+  // From -1 to 1.
+  static double even(std::uint32_t key) {
+    return static_cast<double>(static_cast<int>(key >> 8)) * 0x1p-23 - 1;
+  }
+
+  // Returns a grid with twice as many rows and columns, by the subdivision of quadratic B-splines.
+  static Grid refined(const Grid& coarse) {
+    Grid fine{2 * coarse.rows, 2 * coarse.columns};
+    const auto old = [&](int row, int column) {
+      return coarse.values[static_cast<std::size_t>((row & (coarse.rows - 1)) * coarse.columns +
+                                                    (column & (coarse.columns - 1)))];
+    };
+    for (int row = 0; row < fine.rows; ++row)
+      for (int column = 0; column < fine.columns; ++column) {
+        const int y = row / 2, x = column / 2, down = row % 2 ? 1 : -1, right = column % 2 ? 1 : -1;
+        fine.values.push_back(0.5625 * old(y, x) + 0.1875 * (old(y + down, x) + old(y, x + right)) +
+                              0.0625 * old(y + down, x + right));
+      }
+    return fine;
+  }
+
+  // Makes the noise log-normal, with a mean of 1 in each row.
+  void make_light(const Grid& noise) {
+    double sum = 0, squares = 0;
+    for (const double v : noise.values) sum += v, squares += v * v;
+    const auto count = static_cast<double>(noise.values.size());
+    const double mean = sum / count, deviation = std::sqrt(squares / count - mean * mean);
+    for (int row = 0; row < kTileRows; ++row) {
+      std::array<double, kTileColumns> values;
+      double total = 0;
+      for (std::size_t k = 0; k < kTileColumns; ++k) {
+        const auto at = static_cast<std::size_t>(row) * kTileColumns + k;
+        values[k] = exponential(kContrast * (noise.values[at] - mean) / deviation);
+        total += values[k];
+      }
+      for (int k = 0; k < kTileColumns; ++k)
+        texel(0, 0, row, k) =
+            static_cast<float>(values[static_cast<std::size_t>(k)] * kTileColumns / total);
+    }
+  }
+
+  float& texel(int i, int j, int row, int column) {
+    return texels_[static_cast<std::size_t>(row_at(i, row) + column_at(j, column))];
+  }
+
+  std::vector<float> texels_ = std::vector<float>(std::size_t{4} * kTileRows * kTileColumns);
+};
+
+const NoiseTile& noise_tile() {
+  static const NoiseTile tile;
+  return tile;
+}
+
 // ---- loops over places ----
 
 // A PlaceBlock holds a block of places, a field at a time.
 struct PlaceBlock {
-  std::array<float, kPlacesAtOnce> rows;              // ln r in rows of the first size
+  std::array<float, kPlacesAtOnce> rows;              // ln r in rows
   std::array<float, kPlacesAtOnce> turns, turning;    // azimuth and angular velocity, in turns
   std::array<float, kPlacesAtOnce> winding;           // -dOmega/dln(r), in turns
   std::array<float, kPlacesAtOnce> width, log_width;  // the footprint, in turns and in ln r
+  std::array<float, kPlacesAtOnce> high;  // of the tile's rows, as a logarithm to base 2
   std::array<double, kPlacesAtOnce> time;
   std::array<float, kPlacesAtOnce> kept, sum;
 };
@@ -61,10 +158,30 @@ struct RowBlock {
   std::array<std::uint32_t, kPlacesAtOnce> key, youngest;
 };
 
-struct SizeOfGrains {
+// A TileBlock is where a generation of a row has each place on the tile, and its weight.
+struct TileBlock {
+  std::array<float, kPlacesAtOnce> row, column, wide, weight;
+};
+
+// A ReadBlock has the four texels of one level around each place, and where it lies between them.
+struct ReadBlock {
+  std::array<int, kPlacesAtOnce> above, above_on, below, below_on;
+  std::array<float, kPlacesAtOnce> down, on, light;
+};
+
+struct Clocks {
   const double *spans, *rates;
   std::uint32_t seed;
 };
+
+// Returns the level whose means, read between four of them, have the variance of a footprint of so many
+// texels: 2^(2 level)/4 against texels^2/12.
+[[gnu::always_inline]] inline float level_of(float texels, int highest) {
+  constexpr float kLogOfRootThree = 0.7924813f;
+  const float level = binary_logarithm(texels > 1.0f ? texels : 1.0f) - kLogOfRootThree;
+  const float most = static_cast<float>(highest), least = level > 0 ? level : 0;
+  return least < most ? least : most;
+}
 
 [[gnu::always_inline]] inline void read_places_loop(const GasOrbits& orbits,
                                                     const PatternPlace* places, int count,
@@ -89,6 +206,10 @@ struct SizeOfGrains {
     b.kept[k] = static_cast<float>(part * part * (3 - 2 * part));
     b.sum[k] = 0;
   }
+  constexpr auto kTexelsPerLog =
+      static_cast<float>(NoiseTile::kTileRows / NoiseTile::kRowsOfGas / kRowWidth);
+  for (int k = 0; k < count; ++k)
+    b.high[k] = level_of(b.log_width[k] * kTexelsPerLog, NoiseTile::kLogRows);
 }
 
 // Returns the weights of a quadratic B-spline at `off` (-1/2 to 1/2) from the middle of three.
@@ -99,75 +220,109 @@ struct SizeOfGrains {
                       : 0.5f * after * after;
 }
 
-template <int kSize>
-[[gnu::always_inline]] inline void read_rows(const PlaceBlock& b, const SizeOfGrains& size,
-                                             int which, int count, RowBlock& rows) {
+[[gnu::always_inline]] inline void read_rows_loop(const PlaceBlock& b, const Clocks& clocks,
+                                                  int which, int count, RowBlock& rows) {
   for (int k = 0; k < count; ++k) {
-    const float at = b.rows[k] * static_cast<float>(1 << kSize) + kRowsApart * kSize;
-    const int middle = static_cast<int>(at), row = middle + which - 1;
+    const float at = b.rows[k];
+    const int middle = static_cast<int>(at), row = middle + which - 1, known = row > 0 ? row : 0;
     rows.weight[k] = spline_weight(which, at - static_cast<float>(middle) - 0.5f);
-    const std::uint32_t key = lattice_key(size.seed, static_cast<std::uint32_t>(row));
+    const std::uint32_t key = lattice_key(clocks.seed, static_cast<std::uint32_t>(row));
     const double clock =
-        b.time[k] * size.rates[row] + static_cast<double>(static_cast<int>(key >> 8)) * 0x1p-24;
+        b.time[k] * clocks.rates[known] + static_cast<double>(static_cast<int>(key >> 8)) * 0x1p-24;
     const double shifted = (clock - 0.5) + kRounding;
     rows.key[k] = key;
     rows.youngest[k] = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(shifted));
     rows.passed[k] = static_cast<float>(clock - (shifted - kRounding));
-    rows.span[k] = static_cast<float>(size.spans[row]);
+    rows.span[k] = static_cast<float>(clocks.spans[known]);
   }
 }
 
-// Adds the light of the generation that came `older` generations before the youngest.  A grain is
-// (1 - x^2)^3 for |x| < 1 along its row, with a standard deviation of 1/3.  It looks like a
-// Gaussian that is cut off at three standard deviations, and costs less.
-template <int kSize>
-[[gnu::always_inline]] inline void add_generation(const RowBlock& rows, int older, int count,
-                                                  PlaceBlock& b) {
+// Finds where the generation that came `older` generations before the youngest has each place.
+[[gnu::always_inline]] inline void read_generation_loop(const PlaceBlock& b, const RowBlock& rows,
+                                                        int older, int count, TileBlock& tile) {
   constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
-  constexpr auto kRowsPerLog = static_cast<float>((1 << kSize) / kRowWidth);
-  constexpr float kVariance = kSpread[kSize] * kSpread[kSize], kOfBox = 1.0f / 12;
+  constexpr auto kRows = static_cast<float>(NoiseTile::kTileRows),
+                 kColumns = static_cast<float>(NoiseTile::kTileColumns),
+                 kTexelsPerRow = static_cast<float>(NoiseTile::kTileRows / NoiseTile::kRowsOfGas);
   for (int k = 0; k < count; ++k) {
     const float age = (rows.passed[k] + static_cast<float>(older)) * rows.span[k];
     // Omega falls outwards, so across a footprint of the height h in ln r the gas has turned by
     // angles that differ by winding h age.  A footprint that is high is therefore wide as well.
     const float drawn = b.winding[k] * age * b.log_width[k];
-    const float variance = kVariance + kOfBox * (b.width[k] * b.width[k] + drawn * drawn);
-    const float reach = 3.0f * __builtin_sqrtf(variance), most = reach < 0.5f ? reach : 0.5f;
-    // A grain that would reach all around the ring fades into the mean.
-    const float even = most / reach, inverse = 1.0f / most;
-    const float turns = b.turns[k] - b.turning[k] * age;
-    std::uint32_t key =
+    const std::uint32_t key =
         lattice_key(rows.key[k], rows.youngest[k] - static_cast<std::uint32_t>(older));
-    float light = 0;
-    for (int grain = 0; grain < kGrains[kSize]; ++grain) {
-      const float place = static_cast<float>(static_cast<int>(key & 0xffff)) * 0x1p-16f;
-      const float off = turns - place, x = (off - ((off + kRound) - kRound)) * inverse;
-      const float left = 1.0f - x * x, bump = left > 0 ? left : 0;
-      light += bump * bump * bump;
-      key =
-          grain % 2 == 0 ? key >> 16 : mixed(key + static_cast<std::uint32_t>(grain) * 0x9e3779b9u);
-    }
-    constexpr float kNorm = 35.0f / 32 / static_cast<float>(kGrains[kSize]);
-    const float high = b.log_width[k] * kRowsPerLog, fading = even * even / (1.0f + high * high);
-    const float alive = spline_weight(kReach - 1 - older, rows.passed[k] - 0.5f);
-    b.sum[k] += kParts[kSize] * rows.weight[k] * alive * fading * (light * inverse * kNorm - 1.0f);
+    const float turns = b.turns[k] - b.turning[k] * age +
+                        static_cast<float>(static_cast<int>(key & 0xffff)) * 0x1p-16f;
+    tile.column[k] = (turns - ((turns + kRound) - kRound) + 0.5f) * kColumns;
+    tile.row[k] = (b.rows[k] * kTexelsPerRow +
+                   static_cast<float>(static_cast<int>(key >> 16)) * 0x1p-16f * kRows);
+    const float wide = __builtin_sqrtf(b.width[k] * b.width[k] + drawn * drawn) * kColumns;
+    tile.wide[k] = level_of(wide, NoiseTile::kLogColumns);
+    tile.weight[k] = rows.weight[k] * spline_weight(kReach - 1 - older, rows.passed[k] - 0.5f);
   }
 }
 
-template <int kSize>
-[[gnu::always_inline]] inline void add_grains_loop(const SizeOfGrains& size, int count,
-                                                   PlaceBlock& b) {
-  RowBlock rows;
-  for (int row = 0; row < kReach; ++row) {
-    read_rows<kSize>(b, size, row, count, rows);
-    for (int older = 0; older < kReach; ++older) add_generation<kSize>(rows, older, count, b);
+// Returns 2^-level.
+[[gnu::always_inline]] inline float halved(int level) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(127 - level) << 23);
+}
+
+// Finds what is read of the level that is so many rows and columns coarser than each place's own.
+[[gnu::always_inline]] inline void find_texels_loop(const PlaceBlock& b, const TileBlock& tile,
+                                                    int higher, int wider, int count,
+                                                    ReadBlock& read) {
+  for (int k = 0; k < count; ++k) {
+    const int i0 = static_cast<int>(b.high[k]) + higher,
+              j0 = static_cast<int>(tile.wide[k]) + wider;
+    const int i = i0 < NoiseTile::kLogRows ? i0 : NoiseTile::kLogRows,
+              j = j0 < NoiseTile::kLogColumns ? j0 : NoiseTile::kLogColumns;
+    const float y = (tile.row[k] + 0.5f) * halved(i) + (NoiseTile::kTileRows - 0.5f),
+                x = (tile.column[k] + 0.5f) * halved(j) + (NoiseTile::kTileColumns - 0.5f);
+    const int top = static_cast<int>(y), left = static_cast<int>(x);
+    const int last_row = (NoiseTile::kTileRows >> i) - 1,
+              last_column = (NoiseTile::kTileColumns >> j) - 1;
+    const int above = NoiseTile::row_at(i, top & last_row),
+              below = NoiseTile::row_at(i, (top + 1) & last_row),
+              first = NoiseTile::column_at(j, left & last_column),
+              second = NoiseTile::column_at(j, (left + 1) & last_column);
+    read.above[k] = above + first, read.above_on[k] = above + second;
+    read.below[k] = below + first, read.below_on[k] = below + second;
+    read.down[k] = y - static_cast<float>(top), read.on[k] = x - static_cast<float>(left);
+  }
+}
+
+// Adds the weighted light between two or four levels to the sums.
+[[gnu::always_inline]] inline void add_light_loop(const TileBlock& tile, const ReadBlock* levels,
+                                                  bool coarser_rows, int count, PlaceBlock& b) {
+  for (int k = 0; k < count; ++k) {
+    const float wide = tile.wide[k] - static_cast<float>(static_cast<int>(tile.wide[k])),
+                high = b.high[k] - static_cast<float>(static_cast<int>(b.high[k]));
+    float light = levels[0].light[k] + wide * (levels[1].light[k] - levels[0].light[k]);
+    if (coarser_rows)
+      light +=
+          high * (levels[2].light[k] + wide * (levels[3].light[k] - levels[2].light[k]) - light);
+    b.sum[k] += tile.weight[k] * (light - 1.0f);
   }
 }
 
 Dispatched<read_places_loop> read_places;
-Dispatched<add_grains_loop<0>> add_large_grains;
-Dispatched<add_grains_loop<1>> add_middle_grains;
-Dispatched<add_grains_loop<2>> add_small_grains;
+Dispatched<read_rows_loop> read_rows;
+Dispatched<read_generation_loop> read_generation;
+Dispatched<find_texels_loop> find_texels;
+Dispatched<add_light_loop> add_light;
+
+// Reads a level.  Reads at computed places are in no SIMD code.
+void read_level(const PlaceBlock& b, const TileBlock& tile, int higher, int wider, int count,
+                ReadBlock& read) {
+  find_texels(b, tile, higher, wider, count, read);
+  const float* const texels = noise_tile().texels();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const float above = texels[read.above[k]], below = texels[read.below[k]];
+    const float high = above + read.on[k] * (texels[read.above_on[k]] - above),
+                low = below + read.on[k] * (texels[read.below_on[k]] - below);
+    read.light[k] = high + read.down[k] * (low - high);
+  }
+}
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
@@ -215,35 +370,44 @@ double ring_factor(const RingPattern& rings, const PatternPlace& at) {
 
 Turbulence::Turbulence(const TurbulencePattern& pattern, const GasOrbits& orbits)
     : pattern_(pattern), orbits_(orbits) {
-  for (int size = 0; size < kSizes; ++size) {
-    const double width = std::ldexp(kRowWidth, -size);
-    for (int row = 0; row * width < kOutermostLog + 2 * kRowWidth; ++row) {
-      const double middle = (row + 0.5 - static_cast<double>(kRowsApart) * size) * width;
-      // Rows inside the last stable orbit go by its charge.
-      const double r = std::max(exponential(middle), orbits.last_stable());
-      const double orbit =
-          kTurn * exponential(1.5 * middle) / std::sqrt(1 - orbits.charge_squared() / r);
-      const double span = pattern.orbits * orbit / kReach;
-      spans_[static_cast<std::size_t>(size)].push_back(span);
-      rates_[static_cast<std::size_t>(size)].push_back(1 / span);
-    }
+  for (int row = 0; row * kRowWidth < kOutermostLog + 2 * kRowWidth; ++row) {
+    const double middle = (row + 0.5) * kRowWidth;
+    // Rows inside the last stable orbit go by its charge.
+    const double r = std::max(exponential(middle), orbits.last_stable());
+    const double orbit =
+        kTurn * exponential(1.5 * middle) / std::sqrt(1 - orbits.charge_squared() / r);
+    spans_.push_back(pattern.orbits * orbit / kReach);
+    rates_.push_back(1 / spans_.back());
   }
 }
 
 void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> out) const {
-  const auto size = [this](std::size_t k) {
-    return SizeOfGrains{spans_[k].data(), rates_[k].data(),
-                        lattice_key(pattern_.seed, static_cast<std::uint32_t>(k))};
-  };
+  const Clocks clocks{spans_.data(), rates_.data(), lattice_key(pattern_.seed, 0)};
   const auto contrast = static_cast<float>(pattern_.contrast);
   PlaceBlock block;
+  RowBlock rows;
+  TileBlock tile;
+  std::array<ReadBlock, 4> levels;
   for (std::size_t at = 0; at < places.size(); at += kPlacesAtOnce) {
-    const int count = static_cast<int>(std::min(kPlacesAtOnce, places.size() - at));
-    read_places(orbits_, places.data() + at, count, block);
-    add_large_grains(size(0), count, block);
-    add_middle_grains(size(1), count, block);
-    add_small_grains(size(2), count, block);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+    const std::size_t count = std::min(kPlacesAtOnce, places.size() - at);
+    const int n = static_cast<int>(count);
+    read_places(orbits_, places.data() + at, n, block);
+    const bool coarser_rows = std::any_of(block.high.begin(), block.high.begin() + n,
+                                          [](float high) { return high > 0; });
+    for (int row = 0; row < kReach; ++row) {
+      read_rows(block, clocks, row, n, rows);
+      for (int older = 0; older < kReach; ++older) {
+        read_generation(block, rows, older, n, tile);
+        read_level(block, tile, 0, 0, n, levels[0]);
+        read_level(block, tile, 0, 1, n, levels[1]);
+        if (coarser_rows) {
+          read_level(block, tile, 1, 0, n, levels[2]);
+          read_level(block, tile, 1, 1, n, levels[3]);
+        }
+        add_light(tile, levels.data(), coarser_rows, n, block);
+      }
+    }
+    for (std::size_t k = 0; k < count; ++k)
       out[at + k] = 1 + contrast * block.kept[k] * block.sum[k];
   }
 }

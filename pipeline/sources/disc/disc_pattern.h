@@ -23,14 +23,12 @@ struct PatternPlace {
   double r_width = 0, azimuth_width = 0;
 };
 
-// Turbulence makes the filaments in a disc's gas.  It is a noise whose grains turn with the gas.
-// The orbits further in are the faster ones and so draw the grains out into spirals.  Grains are
-// replaced as they age.
+// Turbulence makes the filaments in a disc's gas.  It is a noise of all sizes (NoiseTile) that turns
+// with the gas.  The orbits further in are the faster ones and so draw it out into spirals, and it is
+// replaced as it ages.
 //
-// Grains of three sizes lie in rows of equal width in ln r, in places that a hash of row and
-// generation chooses.  Rows, and the generations of a row, are joined by quadratic B-splines, which
-// add up to 1.  The light of a row's grains has a fixed mean around the ring, whatever the shear
-// and the footprint do, because a footprint makes a grain wider and keeps its light.
+// The disc is divided into rows of equal width in ln r.  Rows, and the generations of a row, each with
+// the noise at a place that a hash chooses, are joined by quadratic B-splines, which add up to 1.
 class Turbulence {
  public:
   Turbulence(const TurbulencePattern& pattern, const GasOrbits& orbits);
@@ -38,14 +36,12 @@ class Turbulence {
   // Finds the factor at each place, for r <= 1e6.
   void factors(std::span<const PatternPlace> places, std::span<float> out) const;
 
-  static constexpr int kSizes = 3;
-
  private:
   TurbulencePattern pattern_;
   GasOrbits orbits_;
-  // This is the time (M) from one generation of a row to the next, for the rows of each size from
-  // r = 1 on, and its inverse.
-  std::array<std::vector<double>, kSizes> spans_, rates_;
+  // This is the time (M) from one generation of a row to the next, for the rows from r = 1 on, and its
+  // inverse.
+  std::vector<double> spans_, rates_;
 };
 
 class DiscPattern {

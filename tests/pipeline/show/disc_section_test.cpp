@@ -88,7 +88,7 @@ TEST_F(DiscKeys, PatternsAreNamedOrDescribed) {
   EXPECT_FALSE(with("disc: {}\n").disc->pattern);
   EXPECT_FALSE(pattern("none"));
   EXPECT_FALSE(pattern("{type: none}"));
-  EXPECT_EQ(pattern("turbulence"), PatternKind(TurbulencePattern{1, 2, 1}));
+  EXPECT_EQ(pattern("turbulence"), PatternKind(TurbulencePattern{1, 1, 1}));
   EXPECT_EQ(pattern("{type: turbulence, contrast: 0.5, orbits: 4, seed: 17}"),
             PatternKind(TurbulencePattern{0.5, 4, 17}));
   EXPECT_EQ(pattern("rings"), PatternKind(RingPattern{2, 0.8, 0.02}));
@@ -139,7 +139,8 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
       {"disc: {outer: 30}", "3:8: disc.outer is an unknown key; did you mean outer_r?"},
       {"disc: true",
        "3:7: disc must be a map of keys (inner_r, outer_r, inclination_deg, node_deg, t_max_k, "
-       "plunging, pattern, slow_light, luminance_cd_m2 or opacity), got 'true'"},
+       "optical_depth, rim, plunging, pattern, slow_light, luminance_cd_m2 or opacity), got "
+       "'true'"},
       {"disc: {inner_r: 5}",
        "3:17: disc.inner_r must be at least 6 (units of M), got 5: gas inside the last stable "
        "orbit falls in, with plunging: true"},
