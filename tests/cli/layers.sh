@@ -82,7 +82,7 @@ mkdir fewer
 mv fewer.yaml fewer/apart.yaml
 touch apart/layers/sky/notes.txt
 exits 0 "$DOMEFALL" render fewer/apart.yaml --size 96 --frames "$number" --out apart
-says '^apart: 1 file is not this show.s, and is left alone: layers/sky/notes.txt; 4 files are of layers that the show no longer asks for, and are left alone: layers/bodies/'
+says '^apart: 1 file is not this show.s, and is left alone: layers/sky/notes.txt; 5 files are of layers that the show no longer asks for, and are left alone: layers/bodies/'
 
 # Graded files may have an alpha, of the dome's circle.
 for kind in png16 png8 tiff16 tiff8; do
@@ -117,8 +117,13 @@ exits 0 "$DOMEFALL" render floats.yaml --size 64 --frames "$number" --out floats
 off=$(off_by "floats/linear/$(basename "$frame")")
 awk -v off="$off" 'BEGIN { exit !(off < 1e-3) }' || fail "floats are off by $off"
 
-# A disc that a compositor makes a third darker is the one that a keyframe makes a third darker.
-sed '/^output:/d; 0,/{at_s: 0,/s//{at_s: 0, disc: {luminance_cd_m2: 6.6666666667e-4},/' disc.yaml >dimmed.yaml
+# A disc that a compositor makes a third darker is the one that a keyframe makes a third darker, where
+# its glare is left to the compositor, too.
+sed '/^glare:/d; 1i glare: {share: 0}' disc.yaml >sharp.yaml
+layered sharp.yaml sharp_layers.yaml ''
+exits 0 "$DOMEFALL" render sharp_layers.yaml --size 96 --frames "$number" --out sharp
+frame=sharp/linear/$(basename "$frame")
+sed '/^output:/d; 0,/{at_s: 0,/s//{at_s: 0, disc: {luminance_cd_m2: 6.6666666667e-3},/' sharp.yaml >dimmed.yaml
 printf 'output: {graded: none, name: f}\n' >>dimmed.yaml
 exits 0 "$DOMEFALL" render dimmed.yaml --size 96 --frames "$number" --out dimmed
 dimmed=dimmed/linear/$(basename "$frame")
