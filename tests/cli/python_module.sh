@@ -51,7 +51,7 @@ sys.modules["matplotlib"] = None
 runpy.run_path(sys.argv[1])' "$DOMEFALL_SOURCE/docs/falling_observer.py"
 for found in 'formula by at most [0-9.]*e-1[3-9] M' 'formulas by at most [0-9.]*e-1[4-9] radians' \
   ' 2\.0 +42\.10$' ' 6\.0 +24\.20 +45\.00' '4/b is 1\.75 seconds' 'errs by at most [0-9.]*e-1[1-9]' \
-  '^  255 +1\.98 +0\.3' 'matplotlib is not installed'; do
+  '^  255 +1\.98 +0\.29' 'matplotlib is not installed'; do
   grep -qE -- "$found" stdout || { cat stdout; fail "the lesson did not find '$found'"; }
 done
 
