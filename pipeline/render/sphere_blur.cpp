@@ -1,5 +1,6 @@
 #include "pipeline/render/sphere_blur.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -155,11 +156,12 @@ void SphereBlur::blur(std::span<const double> kernel) {
   const auto rows = static_cast<std::size_t>(rows_), columns = static_cast<std::size_t>(columns_),
              orders = static_cast<std::size_t>(orders_), half = rows / 2;
   using Complex = std::complex<float>;
-  const kissfft<float> forward(columns, false), backward(columns, true);
+  // Of some sizes a transform has memory of its own, so that each thread needs one.
+  tbb::enumerable_thread_specific<kissfft<float>> forward(columns, false), backward(columns, true);
   std::vector<Parts> waves(orders * rows);  // [m][row]
   tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t j) {
     std::vector<Complex> row(columns), transformed(columns);
-    kissfft<float> fft(forward);
+    const kissfft<float>& fft = forward.local();
     for (std::size_t c = 0; c < 3; ++c) {
       for (std::size_t i = 0; i < columns; ++i) row[i] = grid_[j * columns + i][c];
       fft.transform(row.data(), transformed.data());
@@ -191,7 +193,7 @@ void SphereBlur::blur(std::span<const double> kernel) {
   });
   tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t j) {
     std::vector<Complex> row(columns), transformed(columns);
-    kissfft<float> fft(backward);
+    const kissfft<float>& fft = backward.local();
     for (std::size_t c = 0; c < 3; ++c) {
       std::ranges::fill(row, Complex{});
       for (std::size_t m = 0; m < orders; ++m) {
