@@ -235,7 +235,7 @@ constexpr std::string_view kRows = R"(
 | `outer_r` | above 2, at most 1e6: where it ends outside, above `inner_r` | [20] |
 | `inclination_deg` | 0 to 180: the angle between its plane and that of the orbits that set out as `heading_deg` says; with more than 90 it turns against them | [10] |
 | `node_deg` | -360 to 360: where its gas rises through the plane of the orbits to their north, as an azimuth from the observer's first place in the sense of the orbits | [90] |
-| `t_max_k` | 1000 to 1e9: the temperature of its hottest ring; the colour of hot steel at 4000, of the Sun at 6000, blue at 20000 | [4000] |
+| `t_max_k` | 1000 to 1e9: the temperature of its hottest ring; gold at 3000, like the Sun at 6000, blue at 20000 | [3000] |
 | `optical_depth` | above 0, at most 1e6: through the gas at right angles; with less than 1 stars shine through, and along its plane all gas is opaque | [6] |
 | `rim` | 0 to 0.5 of its radius: over which it thins out at its inner and outer end | [0.2] |
 | `plunging` | `true` or `false`: whether gas falls in from the last stable orbit and shines on its way | [`false`] |

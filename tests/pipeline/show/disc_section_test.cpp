@@ -18,7 +18,7 @@ TEST_F(DiscKeys, AShowHasADiscOnlyIfItSaysSo) {
   const Disc disc = with("disc: {}\n").disc.value();
   EXPECT_EQ(disc.inner, 6);
   EXPECT_EQ(disc.outer, 20);
-  EXPECT_EQ(disc.t_max_k, 4000);
+  EXPECT_EQ(disc.t_max_k, 3000);
   EXPECT_EQ(disc.luminance, 1e-2);
   EXPECT_EQ(disc.opacity, 1);
   EXPECT_FALSE(disc.plunging);
