@@ -23,23 +23,25 @@ constexpr double kFaster = 1.6;
 // of these.  The error of a cubic through even nodes is f''''/24 times the product of the distances
 // to the four nodes.  That product is at most 1 in steps, so the error is at most 1/24 of the
 // fourth difference.
-constexpr float kMostThird = 0.02f, kMostFourth = 0.006f, kNextToRim = 0.25f;
+constexpr double kMostThird = 0.02, kMostFourth = 0.006, kNextToRim = 0.25;
+// Places are judged by so many pixels, which makes them right to a fortieth of one.
+constexpr double kPixels = 100;
 // A Side says where a ray lies relative to the image of an order.  kWherePlunging is apart from
 // kWithin because the light has a kink where gas begins to plunge, which no cubic may cross.
 enum Side : unsigned { kBeneath, kWithin, kWherePlunging, kAbove };
-// Five nodes have two third differences and one fourth difference, by which a cubic is judged.
-constexpr std::size_t kJudges = 5;
+
+// The numbers of a look behind its light's r, g and b.
+enum LookNumber : std::size_t { kRadius = 3, kAzimuth, kTime, kRadiusWidth, kAzimuthWidth };
 
 // The CellWeights of a cell are Lagrange's weights of four nodes for each of its eight pixels.  The
 // cell `first_cell` lies between the nodes first_cell and first_cell + 1 of the four.
-using CellWeights = std::array<std::array<float, 4>, 8>;
+using CellWeights = std::array<std::array<double, 4>, 8>;
 CellWeights cell_weights(double first_cell) {
   CellWeights weights;
   for (std::size_t x = 0; x < weights.size(); ++x) {
     const double t = first_cell + static_cast<double>(x) / static_cast<double>(weights.size());
     const double a = t, b = t - 1, c = t - 2, d = t - 3;
-    weights[x] = {static_cast<float>(-b * c * d / 6), static_cast<float>(a * c * d / 2),
-                  static_cast<float>(-a * b * d / 2), static_cast<float>(a * b * c / 6)};
+    weights[x] = {-b * c * d / 6, a * c * d / 2, -a * b * d / 2, a * b * c / 6};
   }
   return weights;
 }
@@ -79,6 +81,7 @@ void DiscPass::Row::draw(int row, float* rgb, float* left) {
   first_ = inside.first;
   left_ = left;
   single_.clear();
+  lights_.clear(), places_.clear(), columns_.clear();
   const int cells = with_nodes_ ? (width - 1) / kStep : 0;
   nodes_.resize(static_cast<std::size_t>(cells) + 1);
   for (int at = 0; cells > 0 && at <= cells; at += Strip::kSize)
@@ -96,6 +99,7 @@ void DiscPass::Row::draw(int row, float* rgb, float* left) {
   }
   for (int column = first_ + cells * kStep; column <= inside.last; ++column)
     single_.push_back(column);
+  draw_patterns(rgb);
   draw_singly(row, rgb);
 }
 
@@ -131,14 +135,29 @@ void DiscPass::Row::find_nodes(int row, int first, int count) {
     const Node& node = nodes_[static_cast<std::size_t>(first + k)] = sighted(crossings_, k);
     lit[static_cast<std::size_t>(k)] = node.lit;
   }
-  // A pattern is too fine for cubics.  Its nodes only show where nothing is lit, and need no light.
-  if (pass_.pattern_) return;
-  strip_.gather(crossings_, count, lit.data());
+  strip_.look(crossings_, count, lit.data());
   for (int k = 0; k < count; ++k) {
     Node& node = nodes_[static_cast<std::size_t>(first + k)];
-    node.light = strip_.light(k);
-    node.left = static_cast<float>(strip_.left(k));
+    note_looks(node, first + k > 0 ? nodes_[static_cast<std::size_t>(first + k - 1)] : node, k);
+    node.left = strip_.left(k);
   }
+}
+
+// Azimuths go on from those of the node before.
+void DiscPass::Row::note_looks(Node& node, const Node& before, int k) {
+  const Strip::Looks& seen = strip_.looks(k);
+  for (std::size_t n = 0; n < seen.at.size() && static_cast<int>(n) < seen.count; ++n) {
+    const auto& [light, at] = seen.at[n];
+    const double turned =
+        static_cast<int>(n) < before.count
+            ? 2 * pi * std::round((before.looks[n][kAzimuth] - at.azimuth) / (2 * pi))
+            : 0;
+    node.looks[n] = {exposure_ * light.r, exposure_ * light.g,
+                     exposure_ * light.b, at.r,
+                     at.azimuth + turned, at.time,
+                     at.r_width,          at.azimuth_width};
+  }
+  node.count = seen.count;
 }
 
 DiscPass::Row::Node DiscPass::Row::sighted(const Crossings& crossings, int k) const {
@@ -202,52 +221,96 @@ bool DiscPass::Row::joined(const Node& a, const Node& b) const {
 // are noted in single_.
 void DiscPass::Row::draw_run(std::size_t first, std::size_t last, float* rgb) {
   if (!nodes_[first].lit) return;
-  for (std::size_t cell = first; cell < last; ++cell)
-    if (pass_.pattern_ || last - first + 1 < kJudges || !draw_cell(cell, first, last, rgb))
-      for (int x = 0; x < kStep; ++x)
-        single_.push_back(first_ + static_cast<int>(cell) * kStep + x);
+  for (std::size_t at = first; at < last; ++at) {
+    const int column = first_ + static_cast<int>(at) * kStep;
+    if (last - first + 1 >= kJudges) {
+      // The judges are the five nodes of the run around the cell.
+      const std::size_t judge = std::clamp(at, first + 2, last - 2) - 2,
+                        from = std::clamp(at, first + 1, last - 2) - 1;
+      const Cell cell{&nodes_[judge], from - judge, at - from, column,
+                      at == first || at + 1 == last};
+      if (trusted(cell)) {
+        draw_cell(cell, rgb);
+        continue;
+      }
+    }
+    for (int x = 0; x < kStep; ++x) single_.push_back(column + x);
+  }
 }
 
-// Draws a cell of a run by a cubic if the cubic is accurate there.  Returns whether it did.
-bool DiscPass::Row::draw_cell(std::size_t cell, std::size_t first, std::size_t last,
-                              float* rgb) const {
-  static const std::array<CellWeights, 3> kWeights{cell_weights(0), cell_weights(1),
-                                                   cell_weights(2)};
-  // The judges are the five nodes of the run around the cell, with `judge` as the first.
-  const std::size_t judge = std::clamp(cell, first + 2, last - 2) - 2;
-  // Three channels of light, and what is left of that from behind.
-  using Values = std::array<float, 4>;
-  std::array<Values, kJudges> judges;
-  for (std::size_t k = 0; k < kJudges; ++k) {
-    const Node& node = nodes_[judge + k];
-    judges[k] = {exposure_ * node.light.r, exposure_ * node.light.g, exposure_ * node.light.b,
-                 node.left};
-  }
-  const float trust = cell == first || cell + 1 == last ? kNextToRim : 1;
-  for (std::size_t c = 0; c < 4; ++c) {
+// Says whether cubics are accurate in a cell.
+bool DiscPass::Row::trusted(const Cell& cell) const {
+  const Node* const judges = cell.judges;
+  const double trust = cell.next_to_rim ? kNextToRim : 1;
+  const auto smooth = [trust](const auto& value, double size) {
     const auto third = [&](std::size_t k) {
-      return judges[k + 3][c] - judges[k][c] + 3 * (judges[k + 1][c] - judges[k + 2][c]);
+      return value(k + 3) - value(k) + 3 * (value(k + 1) - value(k + 2));
     };
-    const float before = third(0), after = third(1), size = trust * (c < 3 ? judges[2][c] : 1);
-    if (!(std::abs(before) <= kMostThird * size && std::abs(after) <= kMostThird * size &&
-          std::abs(after - before) <= kMostFourth * size))
-      return false;
-  }
-  // The cubic goes through four nodes from `from` on, all of which are among the judges.
-  const std::size_t from = std::clamp(cell, first + 1, last - 2) - 1;
-  const std::ptrdiff_t column = first_ + static_cast<std::ptrdiff_t>(cell) * kStep;
-  float* pixel = rgb + 3 * column;
-  float* left = left_ ? left_ + column : nullptr;
-  for (const std::array<float, 4>& w : kWeights[cell - from]) {
-    Values at{};
-    for (std::size_t k = 0; k < w.size(); ++k)
-      for (std::size_t c = 0; c < 4; ++c) at[c] += w[k] * judges[from - judge + k][c];
-    at[3] = std::clamp(at[3], 0.0f, 1.0f);
-    for (std::size_t c = 0; c < 3; ++c) pixel[c] = at[3] * pixel[c] + at[c];
-    pixel += 3;
-    if (left) *left++ = at[3];
+    const double before = third(0), after = third(1), most = trust * size;
+    return std::abs(before) <= kMostThird * most && std::abs(after) <= kMostThird * most &&
+           std::abs(after - before) <= kMostFourth * most;
+  };
+  const Node& middle = judges[2];
+  const auto count = static_cast<std::size_t>(middle.count);
+  if (count > middle.looks.size()) return false;
+  for (std::size_t k = 0; k < kJudges; ++k)
+    if (judges[k].count != middle.count) return false;
+  if (!smooth([&](std::size_t k) { return judges[k].left; }, 1)) return false;
+  std::array<double, 3> light{};
+  for (std::size_t n = 0; n < count; ++n)
+    for (std::size_t c = 0; c < 3; ++c) light[c] += middle.looks[n][c];
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto& at = middle.looks[n];
+    const double high = at[kRadiusWidth], wide = at[kAzimuthWidth],
+                 turning = pass_.scene_.disc->disc().orbits.angular_velocity(at[kRadius]);
+    const std::array<double, 8> sizes{
+        light[0], light[1], light[2], kPixels * high, kPixels * wide, kPixels * wide / turning,
+        high,     wide};
+    for (std::size_t c = 0; c < (pass_.pattern_ ? sizes.size() : 3); ++c)
+      if (!smooth([&](std::size_t k) { return judges[k].looks[n][c]; }, sizes[c])) return false;
   }
   return true;
+}
+
+// Draws a cell by cubics.  Light that a pattern multiplies is noted.
+void DiscPass::Row::draw_cell(const Cell& cell, float* rgb) {
+  static const std::array<CellWeights, 3> kWeights{cell_weights(0), cell_weights(1),
+                                                   cell_weights(2)};
+  const Node* const nodes = cell.judges + cell.from;
+  for (int x = 0; x < kStep; ++x) {
+    const std::array<double, 4>& w = kWeights[cell.within][static_cast<std::size_t>(x)];
+    const int column = cell.column + x;
+    double part = 0;
+    for (std::size_t k = 0; k < w.size(); ++k) part += w[k] * nodes[k].left;
+    const auto left = static_cast<float>(std::clamp(part, 0.0, 1.0));
+    float* const pixel = rgb + 3 * static_cast<std::ptrdiff_t>(column);
+    for (int c = 0; c < 3; ++c) pixel[c] *= left;
+    if (left_) left_[column] = left;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(nodes[0].count); ++n) {
+      std::array<double, 8> at{};
+      for (std::size_t k = 0; k < w.size(); ++k)
+        for (std::size_t c = 0; c < at.size(); ++c) at[c] += w[k] * nodes[k].looks[n][c];
+      const std::array<float, 3> light{static_cast<float>(at[0]), static_cast<float>(at[1]),
+                                       static_cast<float>(at[2])};
+      if (!pass_.pattern_) {
+        for (std::size_t c = 0; c < 3; ++c) pixel[c] += light[c];
+        continue;
+      }
+      columns_.push_back(column), lights_.push_back(light);
+      places_.push_back({at[kRadius], at[kAzimuth], at[kTime], std::max(0.0, at[kRadiusWidth]),
+                         std::max(0.0, at[kAzimuthWidth])});
+    }
+  }
+}
+
+// Draws the light that a pattern multiplies.
+void DiscPass::Row::draw_patterns(float* rgb) {
+  if (places_.empty()) return;
+  factors_.resize(places_.size());
+  pass_.pattern_->factors(places_, factors_);
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      rgb[3 * static_cast<std::size_t>(columns_[k]) + c] += factors_[k] * lights_[k][c];
 }
 
 void DiscPass::Row::draw_singly(int row, float* rgb) {

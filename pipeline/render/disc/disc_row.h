@@ -5,6 +5,9 @@
 // or where the cubics would be too far off, is each pixel computed by itself.  Two neighbouring
 // nodes have no rim between them if their distances to the rims are large against how fast these
 // can change.
+//
+// A pattern is too fine for cubics, but the places at which a pixel sees it are as smooth as the light
+// without it.  So these are interpolated, and the pattern is found at each pixel.
 #pragma once
 
 #include <vector>
@@ -35,8 +38,19 @@ class DiscPass::Row {
     unsigned sight = 0;
     bool lit = false;      // whether it is in an image
     double clearance = 0;  // pixels to the nearest rim, at least; 0 where that cannot be told
-    WorkingRgb light{0, 0, 0};
-    float left = 1;  // the part of the light from behind that passes
+    // What the pixel sees: light, and the place for the pattern.
+    int count = 0;
+    std::array<std::array<double, 8>, Strip::kMostLooks> looks;
+    double left = 1;  // the part of the light from behind that passes
+  };
+  // A Cell lies between two nodes.  Its cubics go through four nodes of the five by which they are
+  // judged.
+  static constexpr std::size_t kJudges = 5;
+  struct Cell {
+    const Node* judges;
+    std::size_t from, within;  // the first of the four, and the cell's number between them
+    int column;                // of its first pixel
+    bool next_to_rim;
   };
 
   template <class ColumnOf>
@@ -45,7 +59,10 @@ class DiscPass::Row {
   Node sighted(const Crossings& crossings, int k) const;
   bool joined(const Node& a, const Node& b) const;
   void draw_run(std::size_t first, std::size_t last, float* rgb);
-  bool draw_cell(std::size_t cell, std::size_t first, std::size_t last, float* rgb) const;
+  void note_looks(Node& node, const Node& before, int k);
+  bool trusted(const Cell& cell) const;
+  void draw_cell(const Cell& cell, float* rgb);
+  void draw_patterns(float* rgb);
   void draw_singly(int row, float* rgb);
 
   const DiscPass& pass_;
@@ -56,6 +73,11 @@ class DiscPass::Row {
   float* left_ = nullptr;
   int first_ = 0;  // column of the first node
   std::vector<Node> nodes_;
+  // What pixels of cells see of a pattern, with their columns.
+  std::vector<std::array<float, 3>> lights_;
+  std::vector<PatternPlace> places_;
+  std::vector<float> factors_;
+  std::vector<int> columns_;
   std::vector<int> single_;  // columns of pixels that are computed one by one
 };
 

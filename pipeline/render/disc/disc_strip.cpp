@@ -81,8 +81,19 @@ class Veil {
 DiscPass::Strip::Strip(const DiscPass& pass)
     : pass_(pass), effects_(pass.scene_.effects), disc_(pass.scene_.disc->disc()) {}
 
-void DiscPass::Strip::gather(const Crossings& crossings, int count, const bool* wanted) {
+void DiscPass::Strip::gather(const Crossings& crossings, int count) {
   light_.fill(WorkingRgb{0, 0, 0});
+  looks_only_ = false;
+  gather(crossings, count, nullptr);
+}
+
+void DiscPass::Strip::look(const Crossings& crossings, int count, const bool* wanted) {
+  for (Looks& looks : looks_) looks.count = 0;
+  looks_only_ = true;
+  gather(crossings, count, wanted);
+}
+
+void DiscPass::Strip::gather(const Crossings& crossings, int count, const bool* wanted) {
   taken_.fill({});
   for (int k = 0; k < count; ++k) {
     double& left = left_[static_cast<std::size_t>(k)];
@@ -239,6 +250,8 @@ void DiscPass::Strip::flush() {
   const std::size_t count = count_;
   pass_.scene_.disc->light({samples_.r.data(), count}, {samples_.g.data(), count},
                            {colour_.data(), count});
+  count_ = 0;
+  if (looks_only_) return note_looks(count);
   if (pass_.pattern_) {
     pass_.pattern_->factors({samples_.place.data(), count}, {factor_.data(), count});
     for (std::size_t k = 0; k < count; ++k) samples_.weight[k] *= factor_[k];
@@ -250,7 +263,21 @@ void DiscPass::Strip::flush() {
     light.g += weight * colour_[k].g;
     light.b += weight * colour_[k].b;
   }
-  count_ = 0;
+}
+
+// Without a pattern a pixel has one look, with all its light.
+void DiscPass::Strip::note_looks(std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    Looks& looks = looks_[static_cast<std::size_t>(samples_.pixel[k])];
+    if (pass_.pattern_ || looks.count == 0) {
+      if (looks.count++ >= kMostLooks) continue;
+      looks.at[static_cast<std::size_t>(looks.count - 1)] = {{0, 0, 0}, samples_.place[k]};
+    }
+    WorkingRgb& light = looks.at[static_cast<std::size_t>(looks.count - 1)].light;
+    light.r += samples_.weight[k] * colour_[k].r;
+    light.g += samples_.weight[k] * colour_[k].g;
+    light.b += samples_.weight[k] * colour_[k].b;
+  }
 }
 
 }  // namespace domefall

@@ -15,12 +15,27 @@ class DiscPass::Strip {
 
   explicit Strip(const DiscPass& pass);
 
-  // Finds light() and left() of `count` <= kSize pixels, or only of those that are `wanted`.
-  void gather(const Crossings& crossings, int count, const bool* wanted = nullptr);
+  // A Look is what a pixel sees at one place: the place, and light that no pattern has multiplied.
+  struct Look {
+    WorkingRgb light{0, 0, 0};
+    PatternPlace place{};
+  };
+  // The looks of one pixel, if there are at most this many.  Otherwise `count` is larger.
+  static constexpr int kMostLooks = 2;
+  struct Looks {
+    int count = 0;
+    std::array<Look, kMostLooks> at;
+  };
+
+  // Finds light() and left() of `count` <= kSize pixels.
+  void gather(const Crossings& crossings, int count);
+  // Finds looks() and left() of those that are `wanted`.
+  void look(const Crossings& crossings, int count, const bool* wanted);
 
   // These return the light that the k-th pixel gets from the disc (cd/m^2), and the part of the
   // light from behind that is left there.
   const WorkingRgb& light(int k) const { return light_[static_cast<std::size_t>(k)]; }
+  const Looks& looks(int k) const { return looks_[static_cast<std::size_t>(k)]; }
   double left(int k) const { return left_[static_cast<std::size_t>(k)]; }
   // Returns the part of the light from behind that the image of an order takes.
   double taken(int k, std::size_t order) const {
@@ -50,6 +65,7 @@ class DiscPass::Strip {
     std::array<Gas, kMostSamples> gas;
   };
 
+  void gather(const Crossings& crossings, int count, const bool* wanted);
   double gather_by_divisions(const Crossings& crossings, int k);
   double gather_division(const Crossings& crossings, int k, const Division& division);
   Samples sample(const Crossings& crossings, int k, const Division& division, double turn,
@@ -59,6 +75,7 @@ class DiscPass::Strip {
   void note_place(const Crossings& crossings, int k, const Division& division, double turn,
                   double u, double part);
   void flush();
+  void note_looks(std::size_t count);
 
   const DiscPass& pass_;
   const Effects& effects_;
@@ -68,6 +85,8 @@ class DiscPass::Strip {
   Column<double> left_{};
   Column<std::array<double, PlaneImages::kOrders>> taken_{};
   Column<WorkingRgb> light_{}, colour_{};
+  Column<Looks> looks_{};
+  bool looks_only_ = false;
   struct {
     Column<float> r, g, weight;
     Column<int> pixel;
