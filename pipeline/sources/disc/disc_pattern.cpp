@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "pipeline/base/simd/dispatch.h"
@@ -45,6 +46,7 @@ class NoiseTile {
   static constexpr int kLogRows = 9, kLogColumns = 11, kTileRows = 1 << kLogRows,
                        kTileColumns = 1 << kLogColumns;
   static constexpr double kRowsOfGas = 4;  // its height, in rows of kRowWidth
+  static constexpr float kOne = 512;       // of a texel
 
   NoiseTile() {
     Grid grid{.rows = kTileRows >> kOctaves, .columns = kTileColumns >> kOctaves};
@@ -56,30 +58,32 @@ class NoiseTile {
         grid.values[k] += part * even(lattice_key(octave, static_cast<std::uint32_t>(k)));
     }
     make_light(grid);
-    // Means over two columns, and over two rows.
-    for (int i = 0; i <= kLogRows; ++i)
-      for (int j = i > 0 ? 0 : 1; j <= kLogColumns; ++j)
-        for (int row = 0; row < kTileRows >> i; ++row)
-          for (int column = 0; column < kTileColumns >> j; ++column)
-            texel(i, j, row, column) = j > 0 ? 0.5f * (texel(i, j - 1, row, 2 * column) +
-                                                       texel(i, j - 1, row, 2 * column + 1))
-                                             : 0.5f * (texel(i - 1, 0, 2 * row, column) +
-                                                       texel(i - 1, 0, 2 * row + 1, column));
+    for (int i = 0; i <= kLogRows; ++i) {
+      Grid level = grid;
+      for (int j = 0; j <= kLogColumns; ++j) {
+        for (int row = 0; row < level.rows; ++row) keep_row(level, i, j, row);
+        level = halved(level, 1, 2);
+      }
+      grid = halved(grid, 2, 1);
+    }
   }
 
-  const float* texels() const { return texels_.data(); }
-  // Returns the number of the first texel of a row of a level, and that of a column within a row.
+  // A texel is two numbers of 16 bits, a row's and, above it, that of the row below.
+  const std::uint32_t* texels() const { return texels_.data(); }
+  // Returns the number of the first texel of a row of a level, and that of a column within a row.  One
+  // more column, the first one again, comes after the last.
   [[gnu::always_inline]] static int row_at(int level, int row) {
-    return (2 * kTileRows - (2 * kTileRows >> level) + row) * 2 * kTileColumns;
+    return (2 * kTileRows - (2 * kTileRows >> level) + row) * kStride;
   }
   [[gnu::always_inline]] static int column_at(int level, int column) {
-    return 2 * kTileColumns - (2 * kTileColumns >> level) + column;
+    return 2 * kTileColumns - (2 * kTileColumns >> level) + level + column;
   }
 
  private:
-  static constexpr int kOctaves = 7;
+  static constexpr int kOctaves = 7, kStride = 2 * kTileColumns + kLogColumns;
   static constexpr double kFiner = 0.72;    // of an octave's amplitude against that before
   static constexpr double kContrast = 2.4;  // the standard deviation of the logarithm
+  static constexpr double kBrightest = 60;
   struct Grid {
     int rows, columns;
     std::vector<double> values{};
@@ -106,31 +110,56 @@ class NoiseTile {
     return fine;
   }
 
+  // Returns the means of so many rows and columns.
+  static Grid halved(const Grid& fine, int rows, int columns) {
+    Grid coarse{fine.rows / rows, fine.columns / columns};
+    for (int row = 0; row < coarse.rows; ++row)
+      for (int column = 0; column < coarse.columns; ++column) {
+        const auto at = static_cast<std::size_t>(row * rows * fine.columns + column * columns);
+        const auto next = at + static_cast<std::size_t>(rows > 1 ? fine.columns : 1);
+        coarse.values.push_back((fine.values[at] + fine.values[next]) / 2);
+      }
+    return coarse;
+  }
+
   // Makes the noise log-normal, with a mean of 1 in each row.
-  void make_light(const Grid& noise) {
+  static void make_light(Grid& noise) {
     double sum = 0, squares = 0;
     for (const double v : noise.values) sum += v, squares += v * v;
     const auto count = static_cast<double>(noise.values.size());
     const double mean = sum / count, deviation = std::sqrt(squares / count - mean * mean);
-    for (int row = 0; row < kTileRows; ++row) {
-      std::array<double, kTileColumns> values;
-      double total = 0;
-      for (std::size_t k = 0; k < kTileColumns; ++k) {
-        const auto at = static_cast<std::size_t>(row) * kTileColumns + k;
-        values[k] = exponential(kContrast * (noise.values[at] - mean) / deviation);
-        total += values[k];
+    for (double& v : noise.values) v = exponential(kContrast * (v - mean) / deviation);
+    // What is brighter than this is taken for as bright, and its row made brighter for it.
+    for (const double brightest : {kBrightest, kBrightest, 1e9})
+      for (auto row = noise.values.begin(); row != noise.values.end(); row += kTileColumns) {
+        const double scale = kTileColumns / std::accumulate(row, row + kTileColumns, 0.0);
+        std::transform(row, row + kTileColumns, row,
+                       [&](double v) { return std::min(scale * v, brightest); });
       }
-      for (int k = 0; k < kTileColumns; ++k)
-        texel(0, 0, row, k) =
-            static_cast<float>(values[static_cast<std::size_t>(k)] * kTileColumns / total);
+  }
+
+  // Rounds a row of a level so that its mean stays what it is.
+  void keep_row(const Grid& level, int i, int j, int row) {
+    const int above = (row + level.rows - 1) % level.rows;
+    const auto keep = [&](int column, std::uint32_t value) {
+      texels_[static_cast<std::size_t>(row_at(i, row) + column_at(j, column))] |= value;
+      texels_[static_cast<std::size_t>(row_at(i, above) + column_at(j, column))] |= value << 16;
+    };
+    double rest = 0;
+    std::uint32_t first = 0;
+    for (int k = 0; k < level.columns; ++k) {
+      const double exact =
+          kOne * level.values[static_cast<std::size_t>(row * level.columns + k)] + rest;
+      const auto value = static_cast<std::uint32_t>(exact + 0.5);
+      rest = exact - value;
+      if (k == 0) first = value;
+      keep(k, value);
     }
+    keep(level.columns, first);
   }
 
-  float& texel(int i, int j, int row, int column) {
-    return texels_[static_cast<std::size_t>(row_at(i, row) + column_at(j, column))];
-  }
-
-  std::vector<float> texels_ = std::vector<float>(std::size_t{4} * kTileRows * kTileColumns);
+  std::vector<std::uint32_t> texels_ =
+      std::vector<std::uint32_t>(std::size_t{2} * kTileRows * kStride);
 };
 
 const NoiseTile& noise_tile() {
@@ -163,9 +192,11 @@ struct TileBlock {
   std::array<float, kPlacesAtOnce> row, column, wide, weight;
 };
 
-// A ReadBlock has the four texels of one level around each place, and where it lies between them.
+// A ReadBlock has the texels of one level on the left and on the right of each place, and where it lies
+// between them.
 struct ReadBlock {
-  std::array<int, kPlacesAtOnce> above, above_on, below, below_on;
+  std::array<int, kPlacesAtOnce> at;
+  std::array<std::uint32_t, kPlacesAtOnce> left, right;
   std::array<float, kPlacesAtOnce> down, on, light;
 };
 
@@ -281,13 +312,22 @@ struct Clocks {
     const int top = static_cast<int>(y), left = static_cast<int>(x);
     const int last_row = (NoiseTile::kTileRows >> i) - 1,
               last_column = (NoiseTile::kTileColumns >> j) - 1;
-    const int above = NoiseTile::row_at(i, top & last_row),
-              below = NoiseTile::row_at(i, (top + 1) & last_row),
-              first = NoiseTile::column_at(j, left & last_column),
-              second = NoiseTile::column_at(j, (left + 1) & last_column);
-    read.above[k] = above + first, read.above_on[k] = above + second;
-    read.below[k] = below + first, read.below_on[k] = below + second;
+    read.at[k] = NoiseTile::row_at(i, top & last_row) + NoiseTile::column_at(j, left & last_column);
     read.down[k] = y - static_cast<float>(top), read.on[k] = x - static_cast<float>(left);
+  }
+}
+
+// Finds the light between the texels of a level.
+[[gnu::always_inline]] inline void mix_texels_loop(int count, ReadBlock& read) {
+  for (int k = 0; k < count; ++k) {
+    const std::uint32_t left = read.left[k], right = read.right[k];
+    const auto above = static_cast<float>(static_cast<int>(left & 0xffff)),
+               below = static_cast<float>(static_cast<int>(left >> 16)),
+               above_on = static_cast<float>(static_cast<int>(right & 0xffff)),
+               below_on = static_cast<float>(static_cast<int>(right >> 16));
+    const float high = above + read.on[k] * (above_on - above),
+                low = below + read.on[k] * (below_on - below);
+    read.light[k] = high + read.down[k] * (low - high);
   }
 }
 
@@ -301,7 +341,7 @@ struct Clocks {
     if (coarser_rows)
       light +=
           high * (levels[2].light[k] + wide * (levels[3].light[k] - levels[2].light[k]) - light);
-    b.sum[k] += tile.weight[k] * (light - 1.0f);
+    b.sum[k] += tile.weight[k] * (light - NoiseTile::kOne);
   }
 }
 
@@ -309,19 +349,20 @@ Dispatched<read_places_loop> read_places;
 Dispatched<read_rows_loop> read_rows;
 Dispatched<read_generation_loop> read_generation;
 Dispatched<find_texels_loop> find_texels;
+Dispatched<mix_texels_loop> mix_texels;
 Dispatched<add_light_loop> add_light;
 
 // Reads a level.  Reads at computed places are in no SIMD code.
 void read_level(const PlaceBlock& b, const TileBlock& tile, int higher, int wider, int count,
                 ReadBlock& read) {
   find_texels(b, tile, higher, wider, count, read);
-  const float* const texels = noise_tile().texels();
+  const std::uint32_t* const texels = noise_tile().texels();
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-    const float above = texels[read.above[k]], below = texels[read.below[k]];
-    const float high = above + read.on[k] * (texels[read.above_on[k]] - above),
-                low = below + read.on[k] * (texels[read.below_on[k]] - below);
-    read.light[k] = high + read.down[k] * (low - high);
+    const std::uint32_t* const at = texels + read.at[k];
+    const std::uint32_t left = at[0], right = at[1];
+    read.left[k] = left, read.right[k] = right;
   }
+  mix_texels(count, read);
 }
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
@@ -383,7 +424,7 @@ Turbulence::Turbulence(const TurbulencePattern& pattern, const GasOrbits& orbits
 
 void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> out) const {
   const Clocks clocks{spans_.data(), rates_.data(), lattice_key(pattern_.seed, 0)};
-  const auto contrast = static_cast<float>(pattern_.contrast);
+  const auto contrast = static_cast<float>(pattern_.contrast) / NoiseTile::kOne;
   PlaceBlock block;
   RowBlock rows;
   TileBlock tile;
