@@ -16,8 +16,8 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 // This is the width of rows, in ln r.
 constexpr double kRowWidth = 0.16, kOutermost = 1e6, kOutermostLog = 14;
-// A spline reaches so many rows, and so many generations live at the same time.
-constexpr int kReach = 3;
+// A spline reaches so many rows.  So many generations live at the same time.
+constexpr int kReach = 3, kGenerations = 2;
 // The shear draws out gas that plunges, so that from this part of the last stable orbit inwards it
 // is even.
 constexpr double kEvenBelow = 2.0 / 3;
@@ -289,7 +289,8 @@ struct Clocks {
                    static_cast<float>(static_cast<int>(key >> 16)) * 0x1p-16f * kRows);
     const float wide = __builtin_sqrtf(b.width[k] * b.width[k] + drawn * drawn) * kColumns;
     tile.wide[k] = level_of(wide, NoiseTile::kLogColumns);
-    tile.weight[k] = rows.weight[k] * spline_weight(kReach - 1 - older, rows.passed[k] - 0.5f);
+    const float passed = rows.passed[k], young = passed * passed * (3 - 2 * passed);
+    tile.weight[k] = rows.weight[k] * (older ? 1 - young : young);
   }
 }
 
@@ -417,7 +418,7 @@ Turbulence::Turbulence(const TurbulencePattern& pattern, const GasOrbits& orbits
     const double r = std::max(exponential(middle), orbits.last_stable());
     const double orbit =
         kTurn * exponential(1.5 * middle) / std::sqrt(1 - orbits.charge_squared() / r);
-    spans_.push_back(pattern.orbits * orbit / kReach);
+    spans_.push_back(pattern.orbits * orbit / kGenerations);
     rates_.push_back(1 / spans_.back());
   }
 }
@@ -437,7 +438,7 @@ void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> 
                                           [](float high) { return high > 0; });
     for (int row = 0; row < kReach; ++row) {
       read_rows(block, clocks, row, n, rows);
-      for (int older = 0; older < kReach; ++older) {
+      for (int older = 0; older < kGenerations; ++older) {
         read_generation(block, rows, older, n, tile);
         read_level(block, tile, 0, 0, n, levels[0]);
         read_level(block, tile, 0, 1, n, levels[1]);
