@@ -43,7 +43,7 @@ constexpr std::size_t kPlacesAtOnce = 128;
 // below the other.
 class NoiseTile {
  public:
-  static constexpr int kLogRows = 9, kLogColumns = 11, kTileRows = 1 << kLogRows,
+  static constexpr int kLogRows = 10, kLogColumns = 12, kTileRows = 1 << kLogRows,
                        kTileColumns = 1 << kLogColumns;
   static constexpr double kRowsOfGas = 4;  // its height, in rows of kRowWidth
   static constexpr float kOne = 512;       // of a texel
@@ -80,7 +80,7 @@ class NoiseTile {
   }
 
  private:
-  static constexpr int kOctaves = 7, kStride = 2 * kTileColumns + kLogColumns;
+  static constexpr int kOctaves = 8, kStride = 2 * kTileColumns + kLogColumns;
   static constexpr double kFiner = 0.72;    // of an octave's amplitude against that before
   static constexpr double kContrast = 2.4;  // the standard deviation of the logarithm
   static constexpr double kBrightest = 60;
@@ -97,6 +97,7 @@ class NoiseTile {
   // Returns a grid with twice as many rows and columns, by the subdivision of quadratic B-splines.
   static Grid refined(const Grid& coarse) {
     Grid fine{2 * coarse.rows, 2 * coarse.columns};
+    fine.values.reserve(4 * coarse.values.size());
     const auto old = [&](int row, int column) {
       return coarse.values[static_cast<std::size_t>((row & (coarse.rows - 1)) * coarse.columns +
                                                     (column & (coarse.columns - 1)))];
@@ -113,6 +114,7 @@ class NoiseTile {
   // Returns the means of so many rows and columns.
   static Grid halved(const Grid& fine, int rows, int columns) {
     Grid coarse{fine.rows / rows, fine.columns / columns};
+    coarse.values.reserve(fine.values.size() / 2);
     for (int row = 0; row < coarse.rows; ++row)
       for (int column = 0; column < coarse.columns; ++column) {
         const auto at = static_cast<std::size_t>(row * rows * fine.columns + column * columns);
@@ -145,15 +147,15 @@ class NoiseTile {
       texels_[static_cast<std::size_t>(row_at(i, row) + column_at(j, column))] |= value;
       texels_[static_cast<std::size_t>(row_at(i, above) + column_at(j, column))] |= value << 16;
     };
-    double rest = 0;
-    std::uint32_t first = 0;
+    const double* const values = &level.values[static_cast<std::size_t>(row * level.columns)];
+    double sum = 0;
+    std::uint32_t before = 0, first = 0;
     for (int k = 0; k < level.columns; ++k) {
-      const double exact =
-          kOne * level.values[static_cast<std::size_t>(row * level.columns + k)] + rest;
-      const auto value = static_cast<std::uint32_t>(exact + 0.5);
-      rest = exact - value;
-      if (k == 0) first = value;
-      keep(k, value);
+      sum += kOne * values[k];
+      const auto until = static_cast<std::uint32_t>(sum + 0.5);
+      if (k == 0) first = until;
+      keep(k, until - before);
+      before = until;
     }
     keep(level.columns, first);
   }
@@ -308,8 +310,9 @@ struct Clocks {
               j0 = static_cast<int>(tile.wide[k]) + wider;
     const int i = i0 < NoiseTile::kLogRows ? i0 : NoiseTile::kLogRows,
               j = j0 < NoiseTile::kLogColumns ? j0 : NoiseTile::kLogColumns;
-    const float y = (tile.row[k] + 0.5f) * halved(i) + (NoiseTile::kTileRows - 0.5f),
-                x = (tile.column[k] + 0.5f) * halved(j) + (NoiseTile::kTileColumns - 0.5f);
+    // A whole tile more keeps these above 0.
+    const float y = (tile.row[k] + (NoiseTile::kTileRows + 0.5f)) * halved(i) - 0.5f,
+                x = (tile.column[k] + (NoiseTile::kTileColumns + 0.5f)) * halved(j) - 0.5f;
     const int top = static_cast<int>(y), left = static_cast<int>(x);
     const int last_row = (NoiseTile::kTileRows >> i) - 1,
               last_column = (NoiseTile::kTileColumns >> j) - 1;

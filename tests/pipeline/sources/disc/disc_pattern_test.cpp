@@ -68,7 +68,7 @@ TEST(DiscPattern, HasAMeanOfOneAroundEachRing) {
       for (const double time : {-300.0, 0.0, 1234.5, 1e9})
         for (const double width : {0.0, 0.01, 0.3, 4.0})
           // As many places as the noise has columns.
-          EXPECT_NEAR(mean_of(factors(kind, ring(r, time, 2048, 0, width * r, width))), 1, 2e-5)
+          EXPECT_NEAR(mean_of(factors(kind, ring(r, time, 4096, 0, width * r, width))), 1, 2e-5)
               << kind.index() << " " << r << " " << time << " " << width;
 }
 
