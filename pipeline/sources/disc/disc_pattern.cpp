@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 // This is the width of rows, in ln r.
-constexpr double kRowWidth = 0.16, kOutermost = 1e6, kOutermostLog = 14;
-// A spline reaches so many rows.  So many generations live at the same time.
-constexpr int kReach = 3, kGenerations = 2;
+constexpr double kRowWidth = 0.24, kOutermost = 1e6, kOutermostLog = 14;
+// Each place has light of so many rows, and in each of so many generations.
+constexpr int kRows = 2, kGenerations = 2;
 // The shear draws out gas that plunges, so that from this part of the last stable orbit inwards it
 // is even.
 constexpr double kEvenBelow = 2.0 / 3;
@@ -45,8 +45,8 @@ class NoiseTile {
  public:
   static constexpr int kLogRows = 10, kLogColumns = 12, kTileRows = 1 << kLogRows,
                        kTileColumns = 1 << kLogColumns;
-  static constexpr double kRowsOfGas = 4;  // its height, in rows of kRowWidth
-  static constexpr float kOne = 512;       // of a texel
+  static constexpr double kTexelsPerLog = 1600;  // rows for each unit of ln r
+  static constexpr float kOne = 512;             // of a texel
 
   NoiseTile() {
     Grid grid{.rows = kTileRows >> kOctaves, .columns = kTileColumns >> kOctaves};
@@ -239,34 +239,28 @@ struct Clocks {
     b.kept[k] = static_cast<float>(part * part * (3 - 2 * part));
     b.sum[k] = 0;
   }
-  constexpr auto kTexelsPerLog =
-      static_cast<float>(NoiseTile::kTileRows / NoiseTile::kRowsOfGas / kRowWidth);
+  constexpr auto kTexelsPerLog = static_cast<float>(NoiseTile::kTexelsPerLog);
   for (int k = 0; k < count; ++k)
     b.high[k] = level_of(b.log_width[k] * kTexelsPerLog, NoiseTile::kLogRows);
 }
 
-// Returns the weights of a quadratic B-spline at `off` (-1/2 to 1/2) from the middle of three.
-[[gnu::always_inline]] inline float spline_weight(int which, float off) {
-  const float before = 0.5f - off, after = 0.5f + off;
-  return which == 0   ? 0.5f * before * before
-         : which == 1 ? 0.75f - off * off
-                      : 0.5f * after * after;
-}
+// Returns the weight of what fades in from 0 to 1.
+[[gnu::always_inline]] inline float faded(float part) { return part * part * (3 - 2 * part); }
 
 [[gnu::always_inline]] inline void read_rows_loop(const PlaceBlock& b, const Clocks& clocks,
                                                   int which, int count, RowBlock& rows) {
   for (int k = 0; k < count; ++k) {
-    const float at = b.rows[k];
-    const int middle = static_cast<int>(at), row = middle + which - 1, known = row > 0 ? row : 0;
-    rows.weight[k] = spline_weight(which, at - static_cast<float>(middle) - 0.5f);
+    const int lower = static_cast<int>(b.rows[k]), row = lower + which;
+    const float next = faded(b.rows[k] - static_cast<float>(lower));
+    rows.weight[k] = which ? next : 1 - next;
     const std::uint32_t key = lattice_key(clocks.seed, static_cast<std::uint32_t>(row));
     const double clock =
-        b.time[k] * clocks.rates[known] + static_cast<double>(static_cast<int>(key >> 8)) * 0x1p-24;
+        b.time[k] * clocks.rates[row] + static_cast<double>(static_cast<int>(key >> 8)) * 0x1p-24;
     const double shifted = (clock - 0.5) + kRounding;
     rows.key[k] = key;
     rows.youngest[k] = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(shifted));
     rows.passed[k] = static_cast<float>(clock - (shifted - kRounding));
-    rows.span[k] = static_cast<float>(clocks.spans[known]);
+    rows.span[k] = static_cast<float>(clocks.spans[row]);
   }
 }
 
@@ -274,9 +268,9 @@ struct Clocks {
 [[gnu::always_inline]] inline void read_generation_loop(const PlaceBlock& b, const RowBlock& rows,
                                                         int older, int count, TileBlock& tile) {
   constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
-  constexpr auto kRows = static_cast<float>(NoiseTile::kTileRows),
+  constexpr auto kHigh = static_cast<float>(NoiseTile::kTileRows),
                  kColumns = static_cast<float>(NoiseTile::kTileColumns),
-                 kTexelsPerRow = static_cast<float>(NoiseTile::kTileRows / NoiseTile::kRowsOfGas);
+                 kTexelsPerRow = static_cast<float>(NoiseTile::kTexelsPerLog * kRowWidth);
   for (int k = 0; k < count; ++k) {
     const float age = (rows.passed[k] + static_cast<float>(older)) * rows.span[k];
     // Omega falls outwards, so across a footprint of the height h in ln r the gas has turned by
@@ -288,10 +282,10 @@ struct Clocks {
                         static_cast<float>(static_cast<int>(key & 0xffff)) * 0x1p-16f;
     tile.column[k] = (turns - ((turns + kRound) - kRound) + 0.5f) * kColumns;
     tile.row[k] = (b.rows[k] * kTexelsPerRow +
-                   static_cast<float>(static_cast<int>(key >> 16)) * 0x1p-16f * kRows);
+                   static_cast<float>(static_cast<int>(key >> 16)) * 0x1p-16f * kHigh);
     const float wide = __builtin_sqrtf(b.width[k] * b.width[k] + drawn * drawn) * kColumns;
     tile.wide[k] = level_of(wide, NoiseTile::kLogColumns);
-    const float passed = rows.passed[k], young = passed * passed * (3 - 2 * passed);
+    const float young = faded(rows.passed[k]);
     tile.weight[k] = rows.weight[k] * (older ? 1 - young : young);
   }
 }
@@ -416,7 +410,7 @@ double ring_factor(const RingPattern& rings, const PatternPlace& at) {
 Turbulence::Turbulence(const TurbulencePattern& pattern, const GasOrbits& orbits)
     : pattern_(pattern), orbits_(orbits) {
   for (int row = 0; row * kRowWidth < kOutermostLog + 2 * kRowWidth; ++row) {
-    const double middle = (row + 0.5) * kRowWidth;
+    const double middle = row * kRowWidth;
     // Rows inside the last stable orbit go by its charge.
     const double r = std::max(exponential(middle), orbits.last_stable());
     const double orbit =
@@ -439,7 +433,7 @@ void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> 
     read_places(orbits_, places.data() + at, n, block);
     const bool coarser_rows = std::any_of(block.high.begin(), block.high.begin() + n,
                                           [](float high) { return high > 0; });
-    for (int row = 0; row < kReach; ++row) {
+    for (int row = 0; row < kRows; ++row) {
       read_rows(block, clocks, row, n, rows);
       for (int older = 0; older < kGenerations; ++older) {
         read_generation(block, rows, older, n, tile);

@@ -27,9 +27,9 @@ struct PatternPlace {
 // with the gas.  The orbits further in are the faster ones and so draw it out into spirals, and it is
 // replaced as it ages.
 //
-// The disc is divided into rows of equal width in ln r, which quadratic B-splines join.  In each row two
-// generations live at a time, each with the noise at a place that a hash chooses: one fades in while
-// the other fades out.  All weights add up to 1.
+// The disc is divided into rows of equal width in ln r, which fade into each other from one's middle to
+// the next.  In each row two generations live at a time, each with the noise at a place that a hash
+// chooses: one fades in while the other fades out.  All weights add up to 1.
 class Turbulence {
  public:
   Turbulence(const TurbulencePattern& pattern, const GasOrbits& orbits);
