@@ -218,7 +218,8 @@ std::string FrameKeys::instant(const FrameState& state) const {
   }
   if (o.spacetime.is<Schwarzschild>() && std::holds_alternative<RingsSky>(singularity))
     digest.add(rounded_for_key(o.null_time));
-  if (show_.disc && show_.disc->pattern) digest.add("pattern").add(rounded_for_key(o.null_time));
+  if (show_.disc && !show_.disc->patterns.empty())
+    digest.add("pattern").add(rounded_for_key(o.null_time));
   // What has the show's own light adds nothing.
   if (show_.disc &&
       (state.settings.disc_gain != 1 || state.settings.disc_opacity != show_.disc->opacity))

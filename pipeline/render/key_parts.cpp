@@ -39,7 +39,7 @@ void add_effects(Digest& digest, const Effects& e) {
 void add_disc(Digest& digest, const std::optional<Disc>& disc) {
   if (!disc) return;
   // This is raised with every change that alters the pixels of discs alone.
-  constexpr int kDiscVersion = 3;
+  constexpr int kDiscVersion = 4;
   digest.add("disc").add(kDiscVersion).add(disc->inner).add(disc->outer);
   // The axes come from sines, which differ between processors.  The other numbers stand in the
   // show.
@@ -49,14 +49,17 @@ void add_disc(Digest& digest, const std::optional<Disc>& disc) {
   if (!disc->is_opaque()) digest.add(disc->optical_depth).add(disc->rim);
   digest.add(disc->plunging ? "plunging" : "stable");
   // Without a pattern the disc looks the same at all times, and slow light changes nothing.
-  if (!disc->pattern) return;
-  digest.add(disc->slow_light ? "slow" : "fast").add(static_cast<double>(disc->pattern->index()));
-  if (const auto* p = std::get_if<TurbulencePattern>(&*disc->pattern))
-    digest.add(p->contrast).add(p->orbits).add(static_cast<double>(p->seed));
-  if (const auto* p = std::get_if<RingPattern>(&*disc->pattern))
-    digest.add(p->spacing).add(p->contrast).add(p->inward_speed);
-  if (const auto* p = std::get_if<SpotPattern>(&*disc->pattern))
-    digest.add(p->r).add(p->azimuth).add(p->size).add(p->brightness);
+  if (disc->patterns.empty()) return;
+  digest.add(disc->slow_light ? "slow" : "fast");
+  for (const PatternKind& pattern : disc->patterns) {
+    digest.add(static_cast<double>(pattern.index()));
+    if (const auto* p = std::get_if<TurbulencePattern>(&pattern))
+      digest.add(p->contrast).add(p->orbits).add(static_cast<double>(p->seed));
+    if (const auto* p = std::get_if<RingPattern>(&pattern))
+      digest.add(p->spacing).add(p->contrast).add(p->inward_speed);
+    if (const auto* p = std::get_if<SpotPattern>(&pattern))
+      digest.add(p->r).add(p->azimuth).add(p->size).add(p->brightness);
+  }
 }
 
 }  // namespace domefall

@@ -74,7 +74,10 @@ FramePair compare(const Show& show, const FrameState& a, const FrameState& b) {
     pair.turn = std::min(pair.turn,
                          angle_between(base_from_camera(a.observer), base_from_camera(b.observer)));
   // Rings look the same however they turn.
-  if (show.disc && show.disc->pattern && !std::holds_alternative<RingPattern>(*show.disc->pattern))
+  if (show.disc && std::any_of(show.disc->patterns.begin(), show.disc->patterns.end(),
+                               [](const PatternKind& pattern) {
+                                 return !std::holds_alternative<RingPattern>(pattern);
+                               }))
     pair.gas = show.disc->orbits.angular_velocity(
                    std::max(show.disc->inner, show.disc->orbits.last_stable())) *
                static_cast<double>(b.observer.null_time - a.observer.null_time);

@@ -33,9 +33,9 @@ DiscPass::DiscPass(const FrameScene& scene) : scene_(scene) {
   const Disc& disc = scene.disc->disc();
   const ObserverState& observer = scene.state.observer;
   const V3d normal = apply_transposed(observer.sky_from_tetrad, disc.normal.v);
-  plane_ = scene.tracer.lens()->plane({normal, disc.inner, disc.outer, disc.pattern.has_value()},
+  plane_ = scene.tracer.lens()->plane({normal, disc.inner, disc.outer, !disc.patterns.empty()},
                                       observer.null_time);
-  if (disc.pattern) pattern_.emplace(*disc.pattern, disc.orbits);
+  if (!disc.patterns.empty()) pattern_.emplace(disc.patterns, disc.orbits);
   node_ = apply_transposed(observer.sky_from_tetrad, disc.node.v);
   quarter_ = normal.cross(node_);
 }

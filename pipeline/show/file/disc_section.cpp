@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipeline/show/file/sections.h"
@@ -58,6 +59,26 @@ std::optional<PatternKind> read_pattern(const Item& item, const GasOrbits& orbit
   return std::nullopt;
 }
 
+// Reads one pattern, or a list of them.
+std::vector<PatternKind> read_patterns(const Item& item, const GasOrbits& orbits) {
+  std::vector<PatternKind> patterns;
+  const auto add = [&](const Item& one) {
+    const std::optional<PatternKind> pattern = read_pattern(one, orbits);
+    if (!pattern) return;
+    const bool again = !std::holds_alternative<SpotPattern>(*pattern) &&
+                       std::any_of(patterns.begin(), patterns.end(), [&](const PatternKind& other) {
+                         return other.index() == pattern->index();
+                       });
+    if (again) one.fail("is of a type that is there already: only spots can be several");
+    patterns.push_back(*pattern);
+  };
+  if (!item.node.IsSequence())
+    add(item);
+  else if (const auto list = read_list(item))
+    for (const Item& one : *list) add(one);
+  return patterns;
+}
+
 }  // namespace
 
 OrbitPlane read_orbit_plane(const Section& s, const Show& to) {
@@ -91,7 +112,7 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   disc.luminance = s.number("luminance_cd_m2");
   disc.optical_depth = s.number("optical_depth"), disc.rim = s.number("rim");
   disc.opacity = s.number("opacity");
-  if (const Item* pattern = s.find("pattern")) disc.pattern = read_pattern(*pattern, disc.orbits);
+  if (const Item* pattern = s.find("pattern")) disc.patterns = read_patterns(*pattern, disc.orbits);
   disc.slow_light = s.flag("slow_light");
   return disc;
 }

@@ -239,7 +239,7 @@ constexpr std::string_view kRows = R"(
 | `optical_depth` | above 0, at most 1e6: through the gas at right angles; with less than 1 stars shine through, and along its plane all gas is opaque | [6] |
 | `rim` | 0 to 0.5 of its radius: over which it thins out at its inner and outer end | [0.2] |
 | `plunging` | `true` or `false`: whether gas falls in from the last stable orbit and shines on its way | [`false`] |
-| `pattern` | `turbulence`, `rings`, `spot` or `none`: or a map with one of these as `type` and the keys below | [`none`] |
+| `pattern` | `turbulence`, `rings`, `spot` or `none`: or a map with one of these as `type` and the keys below, or a list of them | [`none`] |
 | `slow_light` | `true` or `false`: whether a pattern is seen as it was when the light left it; with `false` all of it is seen at one time | [`true`] |
 ## disc.light
 | `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: how bright that ring is to an observer who moves with it | [1e-2, which is pixel value 10 at 0 EV] |

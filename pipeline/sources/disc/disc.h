@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <variant>
+#include <vector>
 
 #include "pipeline/sources/disc/gas_orbits.h"
 #include "trajectories/directions.h"
@@ -68,8 +68,10 @@ struct Disc {
   double opacity = 1;  // all that it takes away and sends is this part of what it would be, 0 to 1
   // This says whether matter falls in from the last stable orbit, and shines on its way.
   bool plunging = false;
-  std::optional<PatternKind> pattern{};
-  // This says whether the pattern is seen as it was when the light left it.  Otherwise all of it is
+  // Gas has at most one pattern of turbulence and one of rings, which multiply, and any number of
+  // spots.
+  std::vector<PatternKind> patterns{};
+  // This says whether patterns are seen as they were when the light left them.  Otherwise all of it is
   // seen at once, as it is when light that falls straight in passes the observer (t = v).
   bool slow_light = true;
 
@@ -77,7 +79,7 @@ struct Disc {
 
   bool operator==(const Disc& other) const {
     return orbits == other.orbits && inner == other.inner && outer == other.outer &&
-           normal.v == other.normal.v && node.v == other.node.v && pattern == other.pattern &&
+           normal.v == other.normal.v && node.v == other.node.v && patterns == other.patterns &&
            slow_light == other.slow_light && t_max_k == other.t_max_k &&
            luminance == other.luminance && opacity == other.opacity && plunging == other.plunging &&
            optical_depth == other.optical_depth && rim == other.rim;

@@ -383,9 +383,11 @@ double wrapped_gaussian(double angle, double sigma) {
   return 1 + 2 * sum;
 }
 
-// Returns the light of the gas and the spot, with the spot spread over the footprint, over the mean
-// of the two around the ring.
-double spot_factor(const SpotPattern& spot, const GasOrbits& orbits, const PatternPlace& at) {
+// The light of a spot spread over the footprint, as a part of even gas, and its mean around the ring.
+struct SpotLight {
+  double light, mean;
+};
+SpotLight spot_light(const SpotPattern& spot, const GasOrbits& orbits, const PatternPlace& at) {
   const double across = at.r_width / 2, along = at.azimuth_width / 2, own = spot.size / at.r;
   const double high = std::hypot(spot.size, across), wide = std::hypot(own, along);
   const double off = (at.r - spot.r) / high;
@@ -393,7 +395,7 @@ double spot_factor(const SpotPattern& spot, const GasOrbits& orbits, const Patte
                       std::sqrt(kTwoPi);
   const double turns = orbits.angular_velocity(spot.r) / kTwoPi * at.time;
   const double angle = at.azimuth - spot.azimuth - (turns - std::floor(turns)) * kTwoPi;
-  return (1 + mean * wrapped_gaussian(angle, wide)) / (1 + mean);
+  return {mean * wrapped_gaussian(angle, wide), mean};
 }
 
 double ring_factor(const RingPattern& rings, const PatternPlace& at) {
@@ -451,19 +453,33 @@ void Turbulence::factors(std::span<const PatternPlace> places, std::span<float> 
   }
 }
 
-DiscPattern::DiscPattern(const PatternKind& kind, const GasOrbits& orbits)
-    : kind_(kind), orbits_(orbits) {
-  if (const auto* turbulence = std::get_if<TurbulencePattern>(&kind))
-    turbulence_.emplace(*turbulence, orbits);
+DiscPattern::DiscPattern(std::span<const PatternKind> kinds, const GasOrbits& orbits)
+    : orbits_(orbits) {
+  for (const PatternKind& kind : kinds) {
+    if (const auto* turbulence = std::get_if<TurbulencePattern>(&kind))
+      turbulence_.emplace(*turbulence, orbits);
+    else if (const auto* rings = std::get_if<RingPattern>(&kind))
+      rings_ = *rings;
+    else
+      spots_.push_back(std::get<SpotPattern>(kind));
+  }
 }
 
 void DiscPattern::factors(std::span<const PatternPlace> places, std::span<float> out) const {
-  if (turbulence_) return turbulence_->factors(places, out);
-  const auto* rings = std::get_if<RingPattern>(&kind_);
-  const auto* spot = std::get_if<SpotPattern>(&kind_);
-  for (std::size_t k = 0; k < places.size(); ++k)
-    out[k] = static_cast<float>(rings ? ring_factor(*rings, places[k])
-                                      : spot_factor(*spot, orbits_, places[k]));
+  if (turbulence_)
+    turbulence_->factors(places, out);
+  else
+    std::fill(out.begin(), out.end(), 1.0f);
+  if (!rings_ && spots_.empty()) return;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    double light = out[k], mean = 1;
+    if (rings_) light *= ring_factor(*rings_, places[k]);
+    for (const SpotPattern& spot : spots_) {
+      const SpotLight more = spot_light(spot, orbits_, places[k]);
+      light += more.light, mean += more.mean;
+    }
+    out[k] = static_cast<float>(light / mean);
+  }
 }
 
 }  // namespace domefall

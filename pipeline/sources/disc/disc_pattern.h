@@ -1,11 +1,11 @@
-// A DiscPattern says what a pattern makes of a disc's light.  It is a factor on the radiance, by
+// A DiscPattern says what its patterns make of a disc's light.  It is a factor on the radiance, by
 // place and time of emission.  On every ring r = const the mean of the factor is 1 at each time,
-// exactly, for filaments and the spot.  Rings have a mean of 1 over their spacing.  The factor is a
+// exactly, for filaments and spots, alone and together.  Rings have a mean of 1 over their spacing.  The factor is a
 // smooth function of place and time, the same on every machine, and never below 0.  What is finer
 // than a footprint fades into the mean, so that a picture neither aliases nor shimmers.
 #pragma once
 
-#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -47,14 +47,18 @@ class Turbulence {
 
 class DiscPattern {
  public:
-  explicit DiscPattern(const PatternKind& kind, const GasOrbits& orbits = GasOrbits());
+  explicit DiscPattern(std::span<const PatternKind> kinds, const GasOrbits& orbits = GasOrbits());
+
+  // Turbulence and rings multiply each other.  Spots add their light, as parts of even gas, and the
+  // sum is divided by its mean around the ring.
 
   void factors(std::span<const PatternPlace> places, std::span<float> out) const;
 
  private:
-  PatternKind kind_;
   GasOrbits orbits_;
   std::optional<Turbulence> turbulence_;
+  std::optional<RingPattern> rings_;
+  std::vector<SpotPattern> spots_;
 };
 
 }  // namespace domefall

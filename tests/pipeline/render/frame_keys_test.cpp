@@ -158,14 +158,15 @@ TEST(FrameKeys, KnowEachPropertyOfADisc) {
                   [](Show& s) { s.disc->opacity = 0.5; },
                   [](Show& s) { s.disc->plunging = true; },
                   [](Show& s) { s.disc->node = {V3d(0, 1, 0)}; },
-                  [](Show& s) { s.disc->pattern = SpotPattern{}, s.disc->slow_light = false; }};
+                  [](Show& s) { s.disc->patterns = {SpotPattern{}}, s.disc->slow_light = false; }};
   for (const PatternKind& pattern : std::initializer_list<PatternKind>{
            TurbulencePattern{}, TurbulencePattern{0.5, 2, 1}, TurbulencePattern{1, 3, 1},
            TurbulencePattern{1, 2, 2}, RingPattern{}, RingPattern{3, 0.8, 0.02},
            RingPattern{2, 0.7, 0.02}, RingPattern{2, 0.8, 0}, SpotPattern{},
            SpotPattern{9, 0, 0.7, 5}, SpotPattern{8, 1, 0.7, 5}, SpotPattern{8, 0, 0.5, 5},
            SpotPattern{8, 0, 0.7, 6}})
-    changes.emplace_back([pattern](Show& s) { s.disc->pattern = pattern; });
+    changes.emplace_back([pattern](Show& s) { s.disc->patterns = {pattern}; });
+  changes.emplace_back([](Show& s) { s.disc->patterns = {TurbulencePattern{}, SpotPattern{}}; });
   expect_other_keys(with_disc(), changes);
 }
 
@@ -198,7 +199,7 @@ TEST(FrameKeys, KnowTheTimeOfADiscsPatternAlone) {
   FrameState later = now;
   later.observer.null_time += 3;
   EXPECT_EQ(FrameKeys(show).scene(now), FrameKeys(show).scene(later));
-  show.disc->pattern = TurbulencePattern{};
+  show.disc->patterns = {TurbulencePattern{}};
   EXPECT_NE(FrameKeys(show).scene(now), FrameKeys(show).scene(later));
 }
 

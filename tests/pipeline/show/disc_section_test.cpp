@@ -34,7 +34,7 @@ TEST_F(DiscKeys, NearAChargeADiscReachesFurtherIn) {
   EXPECT_EQ(disc.orbits.charge_squared(), 1);
   EXPECT_EQ(near_charge("disc: {plunging: true}\n").inner, 1);
   const Disc spotted = near_charge("disc: {pattern: {type: spot, r: 4.5}}\n");
-  EXPECT_EQ(std::get<SpotPattern>(spotted.pattern.value()).r, 4.5);
+  EXPECT_EQ(spotted.patterns, std::vector<PatternKind>{SpotPattern({4.5})});
 }
 
 TEST_F(DiscKeys, EveryKeyIsTaken) {
@@ -83,20 +83,24 @@ TEST_F(DiscKeys, WithoutInclinationItTurnsAsTheOrbitDoesAndWithAHalfTurnAgainstI
 
 TEST_F(DiscKeys, PatternsAreNamedOrDescribed) {
   const auto pattern = [&](const std::string& text) {
-    return with("disc: {pattern: " + text + "}\n").disc->pattern;
+    return with("disc: {pattern: " + text + "}\n").disc->patterns;
   };
-  EXPECT_FALSE(with("disc: {}\n").disc->pattern);
-  EXPECT_FALSE(pattern("none"));
-  EXPECT_FALSE(pattern("{type: none}"));
-  EXPECT_EQ(pattern("turbulence"), PatternKind(TurbulencePattern{1, 1, 1}));
+  using Patterns = std::vector<PatternKind>;
+  EXPECT_EQ(with("disc: {}\n").disc->patterns, Patterns{});
+  EXPECT_EQ(pattern("none"), Patterns{});
+  EXPECT_EQ(pattern("{type: none}"), Patterns{});
+  EXPECT_EQ(pattern("[turbulence, {type: spot, r: 9}, spot, {type: rings, contrast: 1}]"),
+            (Patterns{TurbulencePattern{}, SpotPattern{9, 0, 0.7, 5}, SpotPattern{},
+                      RingPattern{2, 1, 0.02}}));
+  EXPECT_EQ(pattern("turbulence"), (Patterns{TurbulencePattern{1, 1, 1}}));
   EXPECT_EQ(pattern("{type: turbulence, contrast: 0.5, orbits: 4, seed: 17}"),
-            PatternKind(TurbulencePattern{0.5, 4, 17}));
-  EXPECT_EQ(pattern("rings"), PatternKind(RingPattern{2, 0.8, 0.02}));
+            (Patterns{TurbulencePattern{0.5, 4, 17}}));
+  EXPECT_EQ(pattern("rings"), (Patterns{RingPattern{2, 0.8, 0.02}}));
   EXPECT_EQ(pattern("{type: rings, spacing_r: 1, contrast: 1, inward_speed: 0}"),
-            PatternKind(RingPattern{1, 1, 0}));
-  EXPECT_EQ(pattern("spot"), PatternKind(SpotPattern{8, 0, 0.7, 5}));
+            (Patterns{RingPattern{1, 1, 0}}));
+  EXPECT_EQ(pattern("spot"), (Patterns{SpotPattern{8, 0, 0.7, 5}}));
   EXPECT_EQ(pattern("{type: spot, r: 10, azimuth_deg: 90, size_r: 0.3, brightness: 20}"),
-            PatternKind(SpotPattern{10, 90 * kDegree, 0.3, 20}));
+            (Patterns{SpotPattern{10, 90 * kDegree, 0.3, 20}}));
 }
 
 TEST_F(DiscKeys, LightIsSlowUnlessTheShowSaysOtherwise) {
@@ -168,6 +172,10 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
        "3:42: disc.pattern.seed must be a whole number, got 1.5"},
       {"disc: {pattern: {type: spot, r: 5}}",
        "3:33: disc.pattern.r must be at least 6 (units of M), got 5"},
+      {"disc: {pattern: [turbulence, spot, {type: turbulence}]}",
+       "3:36: disc.pattern[3] is of a type that is there already: only spots can be several"},
+      {"disc: {pattern: [spot, {type: spot, r: 5}]}",
+       "3:40: disc.pattern[2].r must be at least 6 (units of M), got 5"},
       {"disc: {slow_light: 3}", "3:20: disc.slow_light must be true or false, got '3'"},
       {"disc: {plunging: maybe}", "3:18: disc.plunging must be true or false, got 'maybe'"},
   });

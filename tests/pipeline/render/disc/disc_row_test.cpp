@@ -46,7 +46,7 @@ Disc translucent() {
 
 Disc turbulent() {
   Disc disc = translucent();
-  disc.pattern = TurbulencePattern{};
+  disc.patterns = {TurbulencePattern{}, SpotPattern{}};
   return disc;
 }
 
@@ -73,7 +73,7 @@ TEST(DiscRow, IsThatOfItsPixels) {
     const Drawn frames = drawn_row(views()[v], Domemaster{tries(512, 256)});
     const std::vector<float>&singly = frames.singly.pixels, &by_rows = frames.by_rows.pixels;
     // The place at which a pixel sees a pattern is right to a small part of the pixel.
-    const float off = views()[v].disc.pattern ? 3e-3f : 0;
+    const float off = views()[v].disc.patterns.empty() ? 0 : 3e-3f;
     for (std::size_t k = 0; k < singly.size(); ++k) {
       differ += singly[k] != by_rows[k];
       ASSERT_NEAR(by_rows[k], singly[k], 1e-3f * singly[k] + off * (1 + singly[k]))

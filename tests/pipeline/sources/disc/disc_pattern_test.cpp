@@ -13,10 +13,15 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-std::vector<float> factors(const PatternKind& kind, const std::vector<PatternPlace>& places) {
+std::vector<float> factors(const std::vector<PatternKind>& kinds,
+                           const std::vector<PatternPlace>& places) {
   std::vector<float> out(places.size());
-  DiscPattern(kind).factors(places, out);
+  DiscPattern(kinds).factors(places, out);
   return out;
+}
+
+std::vector<float> factors(const PatternKind& kind, const std::vector<PatternPlace>& places) {
+  return factors(std::vector{kind}, places);
 }
 
 double factor(const PatternKind& kind, const PatternPlace& place) {
@@ -77,6 +82,23 @@ TEST(DiscPattern, IsNeverBelowZero) {
        {PatternKind(TurbulencePattern{}), PatternKind(RingPattern{2, 1, 0.02}),
         PatternKind(SpotPattern{8, 0, 0.7, 1000})})
     for (const float v : factors(kind, scattered(20000, 2))) ASSERT_GE(v, -1e-6f);
+}
+
+// Spots add the same light to any gas.
+TEST(DiscPattern, OfSeveralKindsHasAMeanOfOne) {
+  const TurbulencePattern turbulence;
+  const SpotPattern spot{8, 1, 0.7, 20}, other{8.5, 3, 0.4, 9};
+  const std::vector<PatternPlace> places = ring(8.2, 70, 4096);
+  const std::vector<float> gas = factors(turbulence, places),
+                           spots = factors({spot, other}, places),
+                           all = factors({other, turbulence, spot}, places);
+  EXPECT_NEAR(mean_of(all), 1, 2e-5);
+  const float even = *std::min_element(spots.begin(), spots.end());
+  for (std::size_t k = 0; k < places.size(); ++k)
+    ASSERT_NEAR(all[k], spots[k] + even * (gas[k] - 1), 1e-5 * (1 + gas[k]) + 1e-5 * spots[k]);
+  const RingPattern rings;
+  const double factor_of_rings = factor(rings, places[0]);
+  EXPECT_NEAR(mean_of(factors({turbulence, rings}, places)), factor_of_rings, 2e-5);
 }
 
 TEST(DiscPattern, GapsBetweenFilamentsGoDarkAndFilamentsBright) {
