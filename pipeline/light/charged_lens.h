@@ -41,6 +41,9 @@ class ChargedLens : public SphericalLens {
                                       double radius) const override {
     return image_of_body(ChargedPlaceView{hole_, r_, false}, null_time, motion, order, radius);
   }
+  std::optional<GasView> gas_view() const override {
+    return GasView{{hole_, r_, optics().tetrad}, own_edge()};
+  }
   std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override {
     return std::make_unique<PlaneRays>(PlaneView{hole_, r_, optics().tetrad}, null_time, rings);
   }

@@ -13,6 +13,7 @@
 #include "pipeline/light/amplification.h"
 #include "pipeline/light/body_image.h"
 #include "pipeline/light/direction_batch.h"
+#include "pipeline/light/light_path.h"
 #include "pipeline/light/plane_rays.h"
 #include "pipeline/light/sky_points.h"
 #include "pipeline/spacetime/regions.h"
@@ -150,6 +151,10 @@ class Lens {
   virtual std::unique_ptr<const PlaneRays> plane(const PlaneRings&, double) const {
     return nullptr;
   }
+
+  // Returns from where the lens sees matter all around the hole (light_path.h).  Nothing is returned
+  // where that is not known.
+  virtual std::optional<GasView> gas_view() const { return std::nullopt; }
 
   // A sky may be crowded around the directions in which it is seen farthest from its borders.
   // Nothing is returned if it is not seen or not known, or is never crowded.

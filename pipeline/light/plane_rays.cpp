@@ -86,28 +86,20 @@ double lapse_squared_at(const PlaneView& view) {
 PlaneRays::PlaneRays(const PlaneView& view, double null_time, const PlaneRings& rings)
     : images_(view, rings.inner, rings.outer, rings.with_times),
       straight_(view.straight),
-      outgoing_(is_outgoing(view.tetrad)),
       r_(view.at.r),
       energy_(view.energy()),
       still_(straight_ ? StaticTime{} : view.space.static_time(r_)),
       lapse_squared_(lapse_squared_at(view)),
       // Straight light is labelled in the frame of the observer at rest, where alpha counts from the
       // hole and p = cos alpha/(r sin alpha).
-      label_sign_(outgoing_ && !straight_ ? -1 : 1),
+      label_sign_(is_outgoing(view.tetrad) && !straight_ ? -1 : 1),
       energy_sign_(is_mirrored(view.tetrad) ? -1 : 1),
+      clock_(view, null_time),
       normal_up_(rings.normal.x),
       normal_across_(std::sqrt(rings.normal.y * rings.normal.y + rings.normal.z * rings.normal.z)),
       normal_cosine_(normal_across_ > 0 ? rings.normal.y / normal_across_ : 1),
       normal_sine_(normal_across_ > 0 ? rings.normal.z / normal_across_ : 0),
-      side_(normal_up_ > 0 ? -1 : 1) {
-  if (const auto* hole = std::get_if<ChargedHole>(&view.space.kind()))
-    charged_tortoise_.emplace(*hole);
-  const double tortoise = view.tortoise();
-  // The t of a mirrored observer counts backwards.  With t -> -t, v = t + r* becomes 2 r* - v, and
-  // u = t - r* becomes -2 r* - u.
-  null_time_ = is_mirrored(view.tetrad) ? (outgoing_ ? -2 : 2) * tortoise - null_time : null_time;
-  observer_v_ = outgoing_ ? null_time_ + 2 * tortoise : null_time_;
-}
+      side_(normal_up_ > 0 ? -1 : 1) {}
 
 void PlaneRays::locate(const DirectionBatch& n, const double* width, int count,
                        PlaneCrossings& crossings) const {
@@ -146,14 +138,6 @@ V3d PlaneRays::place(double turn, double azimuth_cosine, double azimuth_sine) co
   const double along = side_ * azimuth_cosine, beside = side_ * azimuth_sine;
   return {turned.cosine, turned.sine * (along * normal_cosine_ - beside * normal_sine_),
           turned.sine * (along * normal_sine_ + beside * normal_cosine_)};
-}
-
-double PlaneRays::time_at(double r, double delay) const {
-  const auto log = [](double x) { return logarithm(x); };
-  const double tortoise = charged_tortoise_
-                              ? charged_tortoise_->at(r, log)
-                              : Schwarzschild::finite_tortoise(r, log);  // no pattern there
-  return null_time_ + delay + (outgoing_ ? tortoise : -tortoise);
 }
 
 }  // namespace domefall

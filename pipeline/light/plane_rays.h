@@ -6,11 +6,8 @@
 // rings.
 #pragma once
 
-#include <optional>
-
 #include "pipeline/light/direction_batch.h"
-#include "pipeline/light/plane_images.h"
-#include "pipeline/spacetime/charged.h"
+#include "pipeline/light/plane_clock.h"
 #include "pipeline/spacetime/regions.h"
 #include "trajectories/directions.h"
 
@@ -59,22 +56,18 @@ class PlaneRays {
   double about_normal(double azimuth_sine) const { return side_ * normal_across_ * azimuth_sine; }
   // Returns the direction from the hole, along R, Theta and Phi, of the place at psi.
   V3d place(double turn, double azimuth_cosine, double azimuth_sine) const;
-  // Returns the time t at which light set out from r, by PlaneImages::Moment::time, and that at
-  // which light would set out that falls from the observer's place.
-  double time_at(double r, double delay) const;
-  double observer_time() const { return observer_v_; }
+  const PlaneClock& clock() const { return clock_; }
 
  private:
   PlaneImages images_;
-  bool straight_, outgoing_;
+  bool straight_;
   double r_;
   ViewEnergy energy_;  // those that make p and E of light that is not straight
   StaticTime still_;
   double lapse_squared_;  // of the observer's place
   double label_sign_;     // the sign of p = k^r/L against its form in the rain frame
   double energy_sign_;    // the sign that the frame gives E of light from region I
-  double null_time_, observer_v_;
-  std::optional<PixelTortoise> charged_tortoise_;
+  PlaneClock clock_;
   // The normal is given by its part along R, by the length of its part across R, and by the cosine
   // and the sine of the angle from Theta to that part.
   double normal_up_, normal_across_, normal_cosine_, normal_sine_;

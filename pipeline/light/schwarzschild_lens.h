@@ -14,6 +14,9 @@ class SchwarzschildLens : public SphericalLens {
     return image_of_body({optics().at, is_outgoing(optics().tetrad), false}, null_time, motion,
                          order, radius);
   }
+  std::optional<GasView> gas_view() const override {
+    return GasView{{Schwarzschild{}, optics().at, optics().tetrad}, own_edge()};
+  }
   std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override {
     return std::make_unique<PlaneRays>(PlaneView{Schwarzschild{}, optics().at, optics().tetrad},
                                        null_time, rings);

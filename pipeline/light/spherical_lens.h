@@ -28,6 +28,8 @@ class SphericalLens : public Lens {
 
  protected:
   const HoleOptics& optics() const { return *optics_; }
+  // Returns alpha of the edge of the tetrad's own sky.
+  double own_edge() const { return optics_->parts.front().zone.edge.half.angle(); }
 
  private:
   ViewCircle circle_at(const HalfAngle& alpha) const;

@@ -28,6 +28,9 @@ class StraightLens : public Lens {
                                           const std::optional<PointTolerance>&) const override;
 
   V3d primary_image(const V3d& source) const override { return source; }
+  std::optional<GasView> gas_view() const override {
+    return GasView{{space_, r_, tetrad_, true}, std::nullopt};
+  }
   std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override;
 
  private:

@@ -229,7 +229,7 @@ void prepare_layers(bool lit, const DrawnLight& drawn, LayeredFrame<T>& frame) {
       case Layer::kStars:
         return drawn.stars->size() > 0;
       case Layer::kDisc:
-        return drawn.disc != nullptr;
+        return drawn.disc || drawn.gas;
       case Layer::kBodies:
         return drawn.bodies != nullptr;
       case Layer::kGlare:
@@ -283,8 +283,10 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
     stars.draw_band(band, splats, rgb.data());
     if (stars_end) stars_end->end_stars(rgb.data());
     if (layers) layers->take(Layer::kStars, rgb.data());
-    if (drawn.disc) {
-      drawn.disc->draw_rows(first, end, rgb.data(), layers ? layers->left() : nullptr);
+    if (drawn.disc || drawn.gas) {
+      float* const left = layers ? layers->left() : nullptr;
+      if (drawn.disc) drawn.disc->draw_rows(first, end, rgb.data(), left);
+      if (drawn.gas) drawn.gas->draw_rows(first, end, rgb.data(), left);
       if (layers) layers->take_hiding(Layer::kDisc, rgb.data());
     }
     if (drawn.bodies) {

@@ -12,6 +12,7 @@
 #include "pipeline/image/layer.h"
 #include "pipeline/render/blobs/blob_layer.h"
 #include "pipeline/render/disc/disc_pass.h"
+#include "pipeline/render/disc/gas_pass.h"
 #include "pipeline/render/frame_mattes.h"
 #include "pipeline/render/rays/sky_borders.h"
 #include "pipeline/render/sky/sky_pass.h"
@@ -48,7 +49,8 @@ struct DrawnLight {
   // Stars end at the borders, if there are any.
   const BlobLayer* stars = nullptr;
   const SkyBorders* borders = nullptr;
-  const DiscPass* disc = nullptr;
+  const DiscPass* disc = nullptr;  // without height
+  const GasPass* gas = nullptr;
   const BlobLayer* bodies = nullptr;
   const MattePass* mattes = nullptr;  // of all of this, for frames with mattes
 };

@@ -100,6 +100,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   common.add("saturation").add(show.star_saturation);
   add_effects(common, show.effects);
   add_disc(common, show.disc);
+  add_gas(common, show);
   if (show.glare.share > 0) common.add("glare").add(show.glare.share).add(show.glare.sigma);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   for (const Body& body : show.bodies) {

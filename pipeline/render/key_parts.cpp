@@ -47,6 +47,7 @@ void add_disc(Digest& digest, const std::optional<Disc>& disc) {
     for (const double v : {axis.x, axis.y, axis.z}) digest.add(rounded_for_key(v));
   digest.add(disc->t_max_k).add(disc->luminance).add(disc->opacity);
   if (!disc->is_opaque()) digest.add(disc->optical_depth).add(disc->rim);
+  if (disc->height > 0) digest.add("height").add(disc->height);
   digest.add(disc->plunging ? "plunging" : "stable");
   // Without a pattern the disc looks the same at all times, and slow light changes nothing.
   if (disc->patterns.empty()) return;
@@ -59,6 +60,24 @@ void add_disc(Digest& digest, const std::optional<Disc>& disc) {
       digest.add(p->spacing).add(p->contrast).add(p->inward_speed);
     if (const auto* p = std::get_if<SpotPattern>(&pattern))
       digest.add(p->r).add(p->azimuth).add(p->size).add(p->brightness);
+  }
+}
+
+void add_gas(Digest& digest, const Show& show) {
+  constexpr int kGasVersion = 1;
+  const auto add = [&digest](const auto& gas) {
+    for (const double x : {gas.normal.v.x, gas.normal.v.y, gas.normal.v.z})
+      digest.add(rounded_for_key(x));
+    digest.add(gas.r).add(gas.luminance).add(gas.temperature.value_or(0));
+  };
+  if (const auto& halo = show.halo) {
+    digest.add("halo").add(kGasVersion).add(halo->height);
+    add(*halo);
+  }
+  if (const auto& jet = show.jet) {
+    digest.add("jet").add(kGasVersion).add(jet->lorentz).add(rounded_for_key(jet->opening));
+    digest.add(jet->length);
+    add(*jet);
   }
 }
 

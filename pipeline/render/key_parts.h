@@ -17,5 +17,6 @@ void add_projection(Digest& digest, const Projection& projection);
 void add_effects(Digest& digest, const Effects& effects);
 // A show without a disc adds nothing.
 void add_disc(Digest& digest, const std::optional<Disc>& disc);
+void add_gas(Digest& digest, const Show& show);  // its halo and its jet
 
 }  // namespace domefall

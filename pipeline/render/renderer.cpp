@@ -13,6 +13,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/base/stop_watch.h"
 #include "pipeline/render/disc/disc_pass.h"
+#include "pipeline/render/disc/gas_pass.h"
 #include "pipeline/render/disc_scene.h"
 #include "pipeline/render/frame_bands.h"
 #include "pipeline/render/frame_bodies.h"
@@ -366,7 +367,11 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
     times.traced_fraction = sky.traced_fraction();
     times.grid_s = watch.lap();
     std::optional<DiscPass> disc;
-    if (scene.disc) disc.emplace(scene);
+    const bool flat = scene.disc && !(scene.disc->disc().height > 0);
+    if (flat || (scene.disc && (!scene.bodies.empty() || !image.mattes.empty())))
+      disc.emplace(scene);
+    std::optional<GasPass> gas;
+    if (scene.plan.gas) gas.emplace(scene);
     times.disc_s = watch.lap();
     const DiscPass* const disc_or_none = disc ? &*disc : nullptr;
     std::optional<BlobLayer> bodies;
@@ -382,7 +387,8 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
                {.crowded_skies = crowds ? &crowded : nullptr,
                 .stars = &stars,
                 .borders = borders ? &*borders : nullptr,
-                .disc = disc_or_none,
+                .disc = flat ? disc_or_none : nullptr,
+                .gas = gas ? &*gas : nullptr,
                 .bodies = bodies ? &*bodies : nullptr,
                 .mattes = mattes ? &*mattes : nullptr},
                memory_->bands, image);

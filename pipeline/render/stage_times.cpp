@@ -50,7 +50,8 @@ std::string describe(const FramePlan& plan, const StageTimes& t) {
   // A frame of one instant says nothing of its shutter.
   if (t.instants > 1) text += fmt::format("shutter open: the mean of {} instants\n", t.instants);
   text += fmt::format("grid    {:8.4f} s\n", t.grid_s);
-  if (plan.disc) text += fmt::format("disc    {:8.4f} s  drawn with the pixels\n", t.disc_s);
+  if (plan.disc || plan.gas)
+    text += fmt::format("disc    {:8.4f} s  drawn with the pixels\n", t.disc_s);
   text += fmt::format("pixels  {:8.4f} s  {:.1f} % traced one by one; loops: {}\n", t.pixels_s,
                       100 * t.traced_fraction, name_of(simd_in_use()));
   if (t.glare_s > 0) text += fmt::format("glare   {:8.4f} s\n", t.glare_s);

@@ -25,6 +25,7 @@
 #include "pipeline/show/placement.h"
 #include "pipeline/sources/colour/colour_space.h"
 #include "pipeline/sources/disc/disc.h"
+#include "pipeline/sources/disc/gas.h"
 #include "pipeline/sources/stars/star_catalogue.h"
 #include "pipeline/spacetime/regions.h"
 #include "pipeline/spacetime/spacetime.h"
@@ -331,7 +332,10 @@ struct Show {
   // motion.
   double star_epoch = kCatalogueEpoch;
   PanoramaShift panorama_shift;
-  std::optional<Disc> disc;  // only where there is a hole
+  // These are only where there is a hole.  A disc beside a halo or a jet has a height.
+  std::optional<Disc> disc;
+  std::optional<Halo> halo;
+  std::optional<Jet> jet;
   Effects effects;
   PointSpreadLaw point_spread;
   // The colours of stars are grey with 0, and as the CIE's standard observer sees them with 1.

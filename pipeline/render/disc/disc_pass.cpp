@@ -35,6 +35,7 @@ DiscPass::DiscPass(const FrameScene& scene) : scene_(scene) {
   const V3d normal = apply_transposed(observer.sky_from_tetrad, disc.normal.v);
   plane_ = scene.tracer.lens()->plane({normal, disc.inner, disc.outer, !disc.patterns.empty()},
                                       observer.null_time);
+  if (disc.height > 0) gas_.emplace(scene);
   if (!disc.patterns.empty()) pattern_.emplace(disc.patterns, disc.orbits);
   node_ = apply_transposed(observer.sky_from_tetrad, disc.node.v);
   quarter_ = normal.cross(node_);
@@ -51,6 +52,7 @@ void DiscPass::locate(const CameraDirection* n, const double* angle, int count,
 double DiscPass::left_before(const CameraDirection& n, double psi, double width) const {
   // A body that moves in the plane itself is not hidden by the disc there.
   constexpr double kInPlane = 1e-6;
+  if (gas_) return gas_->left_before(n, psi);
   Crossings pixel;
   locate(&n, &width, 1, pixel);
   if (!(pixel.energy[0] > 0)) return 1;

@@ -1,4 +1,4 @@
-// A DiscPass draws the light of a disc into bands of pixel rows, and hides the light behind it.
+// A DiscPass draws the light of a disc without height into bands of pixel rows, and hides the light behind it.
 //
 // A view ray meets the plane of the disc several times (plane_rays.h).  How much of a pixel an image
 // covers follows from the pixel's distance to the image's two rims (PlaneImages), so that no image is
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipeline/light/plane_rays.h"
+#include "pipeline/render/disc/gas_rays.h"
 #include "pipeline/render/scene/frame_scene.h"
 #include "pipeline/sources/disc/disc_light.h"
 #include "pipeline/sources/disc/disc_pattern.h"
@@ -78,6 +79,7 @@ class DiscPass {
 
   const FrameScene& scene_;
   std::unique_ptr<const PlaneRays> plane_;
+  std::optional<GasRays> gas_;  // of a disc with a height
   std::optional<DiscPattern> pattern_;
   V3d node_, quarter_;  // where azimuths of the pattern begin, and a quarter of a turn on
 };

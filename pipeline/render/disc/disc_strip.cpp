@@ -233,8 +233,8 @@ void DiscPass::Strip::note_place(const Crossings& crossings, int k, const Divisi
   const PlaneImages::Moment at = pass_.plane_->images().moment(turn, u);
   const double r = 1 / at.w;
   const V3d place = pass_.plane_->place(turn, division.azimuth_cosine, division.azimuth_sine);
-  const double time =
-      disc_.slow_light ? pass_.plane_->time_at(r, at.time) : pass_.plane_->observer_time();
+  const double time = disc_.slow_light ? pass_.plane_->clock().time_at(r, at.time)
+                                       : pass_.plane_->clock().observer_time();
   // Across the pixel the place moves along psi, and at right angles to that about R.  The gas also
   // turns on while the time of emission changes.
   const double moved = length(division.turn_per,

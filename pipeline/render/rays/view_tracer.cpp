@@ -129,6 +129,13 @@ void ViewTracer::into_frame(const CameraDirection* n, int count, FrameRayBatch& 
     for (int k = 0; k < count; ++k) batch.frequency[k] *= measured_ratio(n[k]);
 }
 
+double ViewTracer::frequency_from(const V3d& in_frame) const {
+  const AberratedLight in_tetrad = to_tetrad(lens_->frame(), in_frame),
+                       seen = to_observer(viewer_.celerity, in_tetrad.direction);
+  const double ratio = in_tetrad.frequency_ratio * seen.frequency_ratio;
+  return to_measured_ ? ratio * to_measured_->to_rest(seen.direction).frequency_ratio : ratio;
+}
+
 // Directions n with n.u = cos(alpha) are those whose light ray (1, -n) is orthogonal to the vector
 // (cos(alpha), -u) of space-time.  So a boost changes the circle as it changes that vector, and turns
 // circles into circles.  The square of the vector, -sin^2(alpha), stays the same and gives the sine

@@ -48,6 +48,9 @@ class ViewTracer {
   // nearer than the skies.
   void into_frame(const CameraDirection* n, int count, FrameRayBatch& batch) const;
 
+  // Returns FrameRayBatch::frequency of a direction in the frame of the lens.
+  double frequency_from(const V3d& in_frame) const;
+
   // Return the curves of the lens, which works in the reference tetrad, as the camera sees them.
   std::vector<SkyBorder> borders() const;
   std::vector<ViewCurve> einstein_rings() const;

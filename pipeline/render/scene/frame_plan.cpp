@@ -38,9 +38,14 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
   // An observer who falls from region I receives its light on the horizon itself too.  In a universe
-  // further on another region I has no disc.
-  plan.disc = show.disc && state.settings.disc_opacity > 0 && !is_flat(o) && o.universe == 0 &&
-              (o.region == Region::kI || (o.region == Region::kII && seen[SkyRegion::kI]));
+  // further on another region I has no gas.
+  const bool sees_gas =
+      !is_flat(o) && o.universe == 0 &&
+      (o.region == Region::kI || (o.region == Region::kII && seen[SkyRegion::kI]));
+  plan.disc = show.disc && state.settings.disc_opacity > 0 && sees_gas;
+  if (sees_gas && show.halo) plan.halo = &*show.halo;
+  if (sees_gas && show.jet) plan.jet = &*show.jet;
+  plan.gas = plan.halo || plan.jet || (plan.disc && show.disc->height > 0);
   const auto add = [&](SkyRegion which) {
     plan.sky[which] = plan_sky(show.sky[which], background_of(show, state.segment, which),
                                state.settings.sky[which]);

@@ -21,7 +21,11 @@ struct FramePlan {
     bool lit() const { return background || stars; }
   };
   bool disc = false;  // whether light of the disc, in region I, can reach the observer
-  PerSky<Sky> sky;    // all false for a sky that the observer's region does not see
+  // Gas that light goes through: a disc with a height, and what the show owns of these.
+  bool gas = false;
+  const Halo* halo = nullptr;
+  const Jet* jet = nullptr;
+  PerSky<Sky> sky;  // all false for a sky that the observer's region does not see
 
   const Sky& operator[](SkyRegion which) const { return sky[which]; }
   bool has_background() const;

@@ -79,6 +79,29 @@ std::vector<PatternKind> read_patterns(const Item& item, const GasOrbits& orbits
   return patterns;
 }
 
+// Returns the orbits of gas about the hole of a show, and reports a show where none circles.
+std::optional<GasOrbits> orbits_of_gas(const Item& item, const Show& to) {
+  if (to.spacetime.is_flat()) item.fail("needs a black hole: give the show black_hole.mass_solar");
+  if (to.spacetime.is<Wormhole>()) item.fail("needs a black hole: nothing circles a wormhole");
+  const auto* hole = std::get_if<ChargedHole>(&to.spacetime.kind());
+  if (!hole) return GasOrbits();
+  if (!hole->is_naked()) return GasOrbits(*hole);
+  item.fail("needs a hole with a horizon: gas about a naked singularity is not drawn");
+  return std::nullopt;
+}
+
+// Reads what a halo and a jet have in common.  Their axis is the disc's unless they have their own.
+template <class Gas>
+void read_thin_gas(const Section& s, const Item& item, const Show& to, Gas& gas) {
+  orbits_of_gas(item, to);
+  if (to.disc && !(to.disc->height > 0))
+    item.fail("needs a disc with a height, which it can shine through: give disc.height");
+  const bool own = s.find("inclination_deg") || s.find("node_deg");
+  gas.normal = to.disc && !own ? to.disc->normal : read_orbit_plane(s, to).normal;
+  gas.luminance = s.number("luminance_cd_m2");
+  gas.temperature = s.given("t_k");
+}
+
 }  // namespace
 
 OrbitPlane read_orbit_plane(const Section& s, const Show& to) {
@@ -95,15 +118,8 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   const Item* item = show.find("disc");
   if (item == nullptr) return std::nullopt;
   const Section s(item, {"disc", "disc.light"});
-  if (to.spacetime.is_flat()) item->fail("needs a black hole: give the show black_hole.mass_solar");
-  if (to.spacetime.is<Wormhole>()) item->fail("needs a black hole: nothing circles a wormhole");
   Disc disc;
-  if (const auto* hole = std::get_if<ChargedHole>(&to.spacetime.kind())) {
-    if (hole->is_naked())
-      item->fail("needs a hole with a horizon: gas about a naked singularity is not drawn");
-    else
-      disc.orbits = GasOrbits(*hole);
-  }
+  if (const auto orbits = orbits_of_gas(*item, to)) disc.orbits = *orbits;
   disc.plunging = s.flag("plunging");
   read_radii(s, disc);
   const OrbitPlane plane = read_orbit_plane(s, to);
@@ -111,10 +127,32 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   disc.t_max_k = s.number("t_max_k");
   disc.luminance = s.number("luminance_cd_m2");
   disc.optical_depth = s.number("optical_depth"), disc.rim = s.number("rim");
+  disc.height = s.number("height");
   disc.opacity = s.number("opacity");
   if (const Item* pattern = s.find("pattern")) disc.patterns = read_patterns(*pattern, disc.orbits);
   disc.slow_light = s.flag("slow_light");
   return disc;
+}
+
+std::optional<Halo> read_halo(const Section& show, const Show& to) {
+  const Item* item = show.find("halo");
+  if (item == nullptr) return std::nullopt;
+  const Section s(item, {"halo"});
+  Halo halo;
+  halo.r = s.number("r"), halo.height = s.number("height");
+  read_thin_gas(s, *item, to, halo);
+  return halo;
+}
+
+std::optional<Jet> read_jet(const Section& show, const Show& to) {
+  const Item* item = show.find("jet");
+  if (item == nullptr) return std::nullopt;
+  const Section s(item, {"jet"});
+  Jet jet;
+  jet.lorentz = s.number("lorentz_factor"), jet.opening = s.angle("opening_deg");
+  jet.r = s.number("r"), jet.length = s.number("length_r");
+  read_thin_gas(s, *item, to, jet);
+  return jet;
 }
 
 }  // namespace domefall

@@ -13,7 +13,7 @@ constexpr std::string_view kRows = R"(
 | `title` | one line of text | the file's name without `.yaml` |
 | `frames_per_second` | 1 to 240 frames per second: also as a fraction such as 24000/1001; 23.98, 29.97 and the like stand for n 1000/1001 | [30] |
 | `size` | for a dome `1k`, `2k`, `4k`, `8k` or 16 to 16384 pixels; for a flat picture `[width, height]`, each 16 to 16384; for others see [projections](#projections) | [`4k`], flat [`[1920, 1080]`] |
-| `black_hole`, `wormhole`, `camera`, `effects`, `sky`, `stars`, `disc`, `bodies`, `exposure`, `glare`, `grade`, `dome`, `output` | sections, below | |
+| `black_hole`, `wormhole`, `camera`, `effects`, `sky`, `stars`, `disc`, `halo`, `jet`, `bodies`, `exposure`, `glare`, `grade`, `dome`, `output` | sections, below | |
 | `begins_year` | -1e6 to 1e6 years: the year in which the show begins, for [planets](#planets-sun-and-moon), bodies given by their [elements](#orbits-by-elements) and the [counter](#counters) `{year}` | |
 | `cameras` | further cameras by name, [below](#cameras) | |
 | `keyframes` | what changes during the show, [below](#keyframes) | |
@@ -238,6 +238,7 @@ constexpr std::string_view kRows = R"(
 | `t_max_k` | 1000 to 1e9: the temperature of its hottest ring; gold at 3000, like the Sun at 6000, blue at 20000 | [3000] |
 | `optical_depth` | above 0, at most 1e6: through the gas at right angles; with less than 1 stars shine through, and along its plane all gas is opaque | [6] |
 | `rim` | 0 to 0.5 of its radius: over which it thins out at its inner and outer end | [0.2] |
+| `height` | 0 to 0.5: H/r of its section, a Gaussian, at `outer_r`; it falls inwards as the eighth root of r; 0 of a sheet | [0] |
 | `plunging` | `true` or `false`: whether gas falls in from the last stable orbit and shines on its way | [`false`] |
 | `pattern` | `turbulence`, `rings`, `spot` or `none`: or a map with one of these as `type` and the keys below, or a list of them | [`none`] |
 | `slow_light` | `true` or `false`: whether a pattern is seen as it was when the light left it; with `false` all of it is seen at one time | [`true`] |
@@ -259,6 +260,22 @@ constexpr std::string_view kRows = R"(
 | `azimuth_deg` | -360 to 360: where it is at t = 0, in its orbit's sense from where the gas rises through the plane of the observer's orbits | [0] |
 | `size_r` | 0.01 to 10: the standard deviation of its brightness | [0.7] |
 | `brightness` | 1 to 1e4 times the gas beside it: of its middle | [5] |
+## halo
+| `r` | 3 to 1e4: its density falls as exp(-(r/`r`)²/2) | [4] |
+| `height` | 0.02 to 2: its density falls as exp(-(s/`height`)²/2) with the sine s of the latitude | [0.3] |
+| `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: of so many M of its densest gas as `r` says, to whoever moves with it | [2e-3] |
+| `t_k` | 500 to 1e9: the temperature whose colour and changes of colour its light has | grey |
+| `inclination_deg` | 0 to 180: of its equator, as of a disc | [10, or the disc's] |
+| `node_deg` | -360 to 360: likewise | [90, or the disc's] |
+## jet
+| `lorentz_factor` | 1 to 1000: of the flow against whoever rests there | [3] |
+| `opening_deg` | 1 to 45: its density falls as a Gaussian of the angle from its axis, with this standard deviation | [6] |
+| `r` | 3 to 1e4: where it is densest; from there on it thins out as the square of r | [6] |
+| `length_r` | 3 to 1e4: where it ends, as a Gaussian of r | [60] |
+| `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: of so many M of gas at `r` as `r` says, to whoever moves with it | [5e-3] |
+| `t_k` | 500 to 1e9: the temperature whose colour and changes of colour its light has | grey |
+| `inclination_deg` | 0 to 180: of its equator, as of a disc | [10, or the disc's] |
+| `node_deg` | -360 to 360: likewise | [90, or the disc's] |
 ## bodies
 | `r` | above 3, at most 1e9: radius of its circular orbit; near a charge above its light circle | one of the three |
 | `trajectory` | how it moves otherwise: of type `static`, `circular`, `parabolic`, `hyperbolic`, `bound`, `infall` or `thrown`, by the keys of [timeline](#timeline) that say what it is and where it begins; none that says where a segment ends or how its clock runs | |

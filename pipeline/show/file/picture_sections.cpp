@@ -186,7 +186,8 @@ Glare read_glare(const Section& show, const Show& of) {
   const Section s(show.find("glare"), {"glare"});
   constexpr double kBesideGlowingMatter = 0.12;
   const bool glows =
-      of.disc || std::ranges::any_of(of.bodies, [](const Body& body) { return body.radius > 0; });
+      of.disc || of.halo || of.jet ||
+      std::ranges::any_of(of.bodies, [](const Body& body) { return body.radius > 0; });
   return {s.number("share", glows ? kBesideGlowingMatter : 0), s.angle("width_deg")};
 }
 

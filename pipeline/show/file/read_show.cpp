@@ -110,6 +110,8 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   read_stars(section, show);
   read_sky(root, section, lookup, show);
   show.disc = read_disc(section, show);
+  show.halo = read_halo(section, show);
+  show.jet = read_jet(section, show);
   show.exposure = read_exposure(section);
   show.glare = read_glare(section, show);
   show.effects = read_effects(section);

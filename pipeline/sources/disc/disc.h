@@ -65,6 +65,9 @@ struct Disc {
   // This is the optical depth through the disc at right angles; infinite gas is opaque.  Where `rim`
   // is above 0, it thins out towards inner and outer radius, over this part of each.
   double optical_depth = std::numeric_limits<double>::infinity(), rim = 0;
+  // H/r of its Gaussian section at the outer radius, from where it falls inwards as r^(1/8), as of
+  // the outer part of Shakura and Sunyaev's disc; 0 of a sheet.
+  double height = 0;
   double opacity = 1;  // all that it takes away and sends is this part of what it would be, 0 to 1
   // This says whether matter falls in from the last stable orbit, and shines on its way.
   bool plunging = false;
@@ -75,6 +78,7 @@ struct Disc {
   // seen at once, as it is when light that falls straight in passes the observer (t = v).
   bool slow_light = true;
 
+  double height_at(double r) const { return height * std::sqrt(std::sqrt(std::sqrt(r / outer))); }
   bool is_opaque() const { return std::isinf(optical_depth); }
 
   bool operator==(const Disc& other) const {
@@ -82,7 +86,7 @@ struct Disc {
            normal.v == other.normal.v && node.v == other.node.v && patterns == other.patterns &&
            slow_light == other.slow_light && t_max_k == other.t_max_k &&
            luminance == other.luminance && opacity == other.opacity && plunging == other.plunging &&
-           optical_depth == other.optical_depth && rim == other.rim;
+           optical_depth == other.optical_depth && rim == other.rim && height == other.height;
   }
 };
 

@@ -210,8 +210,7 @@ void DiscLight::light(std::span<const float> r, std::span<const float> g,
   }
 }
 
-double absorbed_part(const Disc& disc, double r, double steepness) {
-  if (disc.is_opaque()) return 1;
+double depth_across(const Disc& disc, double r) {
   double depth = disc.optical_depth;
   const auto thin_out = [&depth, &disc](double way) {
     const double t = way / disc.rim;
@@ -222,6 +221,12 @@ double absorbed_part(const Disc& disc, double r, double steepness) {
     // Gas that falls into the hole has no rim there.
     if (disc.inner > disc.orbits.horizon()) thin_out(r / disc.inner - 1);
   }
+  return depth;
+}
+
+double absorbed_part(const Disc& disc, double r, double steepness) {
+  if (disc.is_opaque()) return 1;
+  const double depth = depth_across(disc, r);
   constexpr double kOpaque = 40, kGrazing = 1e-9;
   if (depth > kOpaque * steepness) return 1;
   return 1 - exponential(-depth / std::max(steepness, kGrazing));

@@ -94,6 +94,8 @@ class DiscLight {
   std::vector<float> table_;
 };
 
+// Returns the optical depth through the disc at right angles, at a radius between its own.
+double depth_across(const Disc& disc, double r);
 // Returns the part of the light along a ray that gas at r absorbs and replaces by its own.  The ray
 // leaves the disc at an angle whose cosine is `steepness` for the gas, 0 to 1, so that the optical
 // depth along it is the disc's over that cosine.

@@ -167,7 +167,23 @@ TEST(FrameKeys, KnowEachPropertyOfADisc) {
            SpotPattern{8, 0, 0.7, 6}})
     changes.emplace_back([pattern](Show& s) { s.disc->patterns = {pattern}; });
   changes.emplace_back([](Show& s) { s.disc->patterns = {TurbulencePattern{}, SpotPattern{}}; });
+  changes.emplace_back([](Show& s) { s.disc->height = 0.1; });
   expect_other_keys(with_disc(), changes);
+}
+
+TEST(FrameKeys, KnowEachPropertyOfThinGas) {
+  Show show = with_disc();
+  show.disc->height = 0.1;
+  show.halo.emplace(), show.jet.emplace();
+  const auto normal = SkyDirection{V3d(0, 1, 0)};
+  expect_other_keys(
+      show, {[](Show& s) { s.halo.reset(); }, [](Show& s) { s.jet.reset(); },
+             [=](Show& s) { s.halo->normal = normal; }, [](Show& s) { s.halo->r = 7; },
+             [](Show& s) { s.halo->height = 0.2; }, [](Show& s) { s.halo->luminance = 1; },
+             [](Show& s) { s.halo->temperature = 4000; }, [=](Show& s) { s.jet->normal = normal; },
+             [](Show& s) { s.jet->lorentz = 7; }, [](Show& s) { s.jet->opening = 0.2; },
+             [](Show& s) { s.jet->r = 7; }, [](Show& s) { s.jet->length = 70; },
+             [](Show& s) { s.jet->luminance = 1; }, [](Show& s) { s.jet->temperature = 4000; }});
 }
 
 TEST(FrameKeys, KnowTheLightThatAKeyframeGivesToDiscAndBodies) {

@@ -9,12 +9,12 @@
 #include <random>
 
 #include "pipeline/render/sphere_blur.h"
+#include "tests/pipeline/render/scenes.h"
 
 namespace domefall {
 namespace {
 
 using std::numbers::pi;
-constexpr double kDegree = pi / 180;
 
 std::vector<double> gaussian_kernel(double sigma, int orders) {
   std::vector<double> kernel;

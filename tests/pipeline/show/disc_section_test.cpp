@@ -143,7 +143,8 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
       {"disc: {outer: 30}", "3:8: disc.outer is an unknown key; did you mean outer_r?"},
       {"disc: true",
        "3:7: disc must be a map of keys (inner_r, outer_r, inclination_deg, node_deg, t_max_k, "
-       "optical_depth, rim, plunging, pattern, slow_light, luminance_cd_m2 or opacity), got "
+       "optical_depth, rim, height, plunging, pattern, slow_light, luminance_cd_m2 or opacity), "
+       "got "
        "'true'"},
       {"disc: {inner_r: 5}",
        "3:17: disc.inner_r must be at least 6 (units of M), got 5: gas inside the last stable "
@@ -182,6 +183,39 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
   expect_complaints({
       {"disc: {}\ntimeline: [{duration_s: 1}]\n",
        "1:7: disc needs a black hole: give the show black_hole.mass_solar"},
+  });
+}
+
+// Their axis is the disc's unless they have their own.
+TEST_F(DiscKeys, AHaloAndAJetShareTheDiscsAxis) {
+  const Show show = with(
+      "disc: {height: 0.1, inclination_deg: 40}\n"
+      "halo: {r: 5, height: 0.2, luminance_cd_m2: 3, t_k: 5000}\n"
+      "jet: {lorentz_factor: 4, opening_deg: 9, r: 7, length_r: 50, "
+      "node_deg: 30}\n");
+  EXPECT_EQ(show.disc->height, 0.1);
+  EXPECT_EQ(*show.halo, (Halo{show.disc->normal, 5, 0.2, 3, 5000}));
+  EXPECT_NE(show.jet->normal.v, show.disc->normal.v);
+  EXPECT_EQ(*show.jet, (Jet{show.jet->normal, 4, 9 * std::numbers::pi / 180, 7, 50, 5e-3, {}}));
+  const Show alone = with("halo: {}\njet: {}\n");
+  EXPECT_FALSE(alone.disc);
+  EXPECT_FALSE(alone.halo->temperature);
+  EXPECT_EQ(alone.halo->normal.v, with("disc: {}\n").disc->normal.v);
+}
+
+TEST_F(DiscMistakes, OfHalosAndJetsAreNamedWithTheirBounds) {
+  expect_complaints_of_lines({
+      {"halo: {height: 3}", "3:16: halo.height must be at most 2, got 3"},
+      {"halo: {t_k: 20}", "3:13: halo.t_k must be at least 500 (kelvin), got 20"},
+      {"jet: {lorentz_factor: 0.5}", "3:23: jet.lorentz_factor must be at least 1, got 0.5"},
+      {"jet: {opening: 3}", "3:7: jet.opening is an unknown key; did you mean opening_deg?"},
+      {"disc: {height: 0.6}", "3:16: disc.height must be at most 0.5, got 0.6"},
+      {"disc: {}\nhalo: {}",
+       "4:7: halo needs a disc with a height, which it can shine through: give disc.height"},
+  });
+  expect_complaints({
+      {"jet: {}\ntimeline: [{duration_s: 1}]\n",
+       "1:6: jet needs a black hole: give the show black_hole.mass_solar"},
   });
 }
 

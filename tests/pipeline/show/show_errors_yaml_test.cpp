@@ -35,14 +35,16 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"- a\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, wormhole, "
        "camera, "
-       "effects, sky, stars, disc, bodies, exposure, glare, grade, dome, output, begins_year, "
+       "effects, sky, stars, disc, halo, jet, bodies, exposure, glare, grade, dome, output, "
+       "begins_year, "
        "cameras, "
        "keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or timeline), got a "
        "list"},
       {"hello\n",
        "1:1: the show must be a map of keys (title, frames_per_second, size, black_hole, wormhole, "
        "camera, "
-       "effects, sky, stars, disc, bodies, exposure, glare, grade, dome, output, begins_year, "
+       "effects, sky, stars, disc, halo, jet, bodies, exposure, glare, grade, dome, output, "
+       "begins_year, "
        "cameras, "
        "keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or timeline), got "
        "'hello'"},
@@ -70,7 +72,8 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
       {"projection: domemaster",
        "3:1: projection is an unknown key; known here: title, frames_per_second, size, black_hole, "
        "wormhole, "
-       "camera, effects, sky, stars, disc, bodies, exposure, glare, grade, dome, output, "
+       "camera, effects, sky, stars, disc, halo, jet, bodies, exposure, glare, grade, dome, "
+       "output, "
        "begins_year, "
        "cameras, keyframes, titles, draw_titles, markers, audio, fade_in_s, fade_out_s or "
        "timeline"},
@@ -184,7 +187,7 @@ TEST_F(ShowErrorsInYaml, CharactersThatLookLikeOthersAreNamedWithTheirCode) {
        "1:1: timeline must be a list of at least one entry, got nothing\n2:1: \xC2\xA0 - "
        "duration_s is an unknown key; it begins with a no-break space (U+00A0), not a space; known "
        "here: title, frames_per_second, size, black_hole, wormhole, camera, effects, sky, stars, "
-       "disc, "
+       "disc, halo, jet, "
        "bodies, exposure, glare, grade, dome, output, begins_year, cameras, keyframes, titles, "
        "draw_titles, markers, "
        "audio, "

@@ -110,6 +110,10 @@ class IntegratedGeodesic {
     }
     throw std::runtime_error("a ray beside the disc could not be followed");
   }
+  // Makes the next step no longer than this part of r.
+  void shorten(double part) {
+    length_ = std::min(length_, part * light_.r() / std::sqrt(dot(light_.rate(), light_.rate())));
+  }
   // Returns the length of the last step in lambda.
   double taken() const { return taken_; }
   // Returns the state after one step of any length up to the last one's, which is as exact as that.
@@ -275,6 +279,25 @@ std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
     if (now.outwards() > 0 && now.r() > 3 && now.r() > view.outer) break;
   }
   return found;
+}
+
+std::vector<ReferenceGasStep> reference_steps(const ReferenceDiscView& view,
+                                              const Vector3& direction, double outer, double part) {
+  IntegratedGeodesic ray(view, direction);
+  std::vector<ReferenceGasStep> steps;
+  const double end = horizon(view.charge);
+  if (!(ray.energy() > 0) || (view.outgoing && view.r <= end)) return steps;
+  while (steps.size() < 1000000) {
+    ray.shorten(part);
+    const Light before = ray.step();
+    const Light middle = ray.after(before, ray.taken() / 2);
+    if (middle.r() > end)
+      steps.push_back({middle.place(), middle.rate(), ray.energy(), ray.taken()});
+    const Light& now = ray.light();
+    if (now.outwards() < 0 && now.r() < end + kPastHorizon) break;
+    if (now.outwards() > 0 && now.r() > 3 && now.r() > outer) break;
+  }
+  return steps;
 }
 
 }  // namespace domefall

@@ -52,4 +52,14 @@ struct ReferenceDiscPlace {
 std::vector<ReferenceDiscPlace> reference_disc(const ReferenceDiscView& view,
                                                const Vector3& direction, int orders = 4);
 
+// A ReferenceGasStep is a small step back along a ray that one follows in the same way: the place and
+// the rate of change at its middle, and its length in lambda.  The observer measures the frequency 1.
+struct ReferenceGasStep {
+  Vector3 place, rate;
+  double energy, length;
+};
+// Follows the ray to r = `outer`, or to the horizon, in steps of at most this part of r.
+std::vector<ReferenceGasStep> reference_steps(const ReferenceDiscView& view,
+                                              const Vector3& direction, double outer, double part);
+
 }  // namespace domefall

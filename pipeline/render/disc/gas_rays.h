@@ -1,0 +1,104 @@
+// GasRays say what single rays of one observer get from gas that they go through: a disc with a
+// height, a halo, jets.  Along a ray the light of the gas is added up in small steps, dimmed by the
+// disc's gas in front of it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "pipeline/light/light_path.h"
+#include "pipeline/light/plane_clock.h"
+#include "pipeline/render/scene/frame_scene.h"
+#include "pipeline/sources/disc/gas.h"
+
+namespace domefall {
+
+// A GasLook is what a ray sees of a disc about one of its crossings of the plane: light that no pattern
+// has multiplied, and, times the sum of its three colours, the place of the gas in the plane (M) and
+// the time at which the light left it.
+struct GasLook {
+  std::array<float, 3> light{};
+  float x = 0, y = 0, time = 0;  // GasRays::observer_time() counts as 0
+};
+
+// A GasSight is all that a ray sees.
+struct GasSight {
+  std::array<float, 3> light{};  // what no pattern multiplies
+  float left = 1;                // of the light behind all gas
+  // Of a disc with a pattern: what is next to the observer, about the first crossing, and about the
+  // second.  Later ones count as light alone.
+  static constexpr int kLooks = 3;
+  std::array<GasLook, kLooks> looks{};
+};
+
+class GasRays {
+ public:
+  // The scene must outlive this object.
+  explicit GasRays(const FrameScene& scene);
+
+  const FrameScene& scene() const { return scene_; }
+  bool has_disc() const { return disc_ != nullptr; }
+  bool has_pattern() const { return disc_ && !disc_->patterns.empty(); }
+  const GasView& view() const { return view_; }
+  // The sine of the smallest angle, as seen from the hole, across which gas changes.
+  double finest() const { return finest_; }
+  LightPath path(double alpha) const { return light_path(view_.view, alpha, outer_); }
+
+  // The time t from which those of looks are counted.
+  double observer_time() const { return clock_->observer_time(); }
+
+  // Adds up the gas on a path, up to psi, that leads away from the observer on the side of the unit
+  // vector `across` (along R, Theta and Phi, at right angles to R).  `frequency` is
+  // FrameRayBatch::frequency.
+  GasSight sight(const LightPath& path, const V3d& across, double frequency,
+                 double until = HUGE_VAL) const;
+
+  // Returns the part of the light from a place that the gas in front of it lets through.  It is seen
+  // in direction n, and its light has swept psi.
+  double left_before(const CameraDirection& n, double psi) const;
+
+  // Says whether alpha counts from -R, where the hole is, or from R.
+  bool counts_from_hole() const;
+  // Returns the direction in the frame of the lens of a ray at alpha in the plane of R and `across`.
+  V3d direction_of(double alpha, const V3d& across) const;
+
+ private:
+  // A Ray is a path in the plane of R and `across`.
+  struct Ray {
+    const LightPath& path;
+    V3d across;
+    double frequency;
+  };
+  // A Step is a small part of a ray.
+  struct Step {
+    double psi, length;  // of its middle, and radians
+    double cosine, sine;
+    double r, time;
+    bool outward;
+  };
+  // A Layer is the gas of one step: the light of what is thin, and the disc's radius, ratio of the
+  // frequency observed to that sent, and optical depth.
+  struct Layer {
+    double psi, time;
+    WorkingRgb light;
+    float r, ratio, depth;
+  };
+  int steps_between(const LightPath::Place& a, const LightPath::Place& b, const V3d& across) const;
+  Layer layer(const Ray& ray, const Step& step) const;
+  GasSight seen(const Ray& ray, const std::vector<Layer>& layers) const;
+
+  const FrameScene& scene_;
+  const Halo* halo_;
+  const Jet* jet_;
+  const Disc* disc_ = nullptr;
+  GasView view_;
+  V3d disc_normal_{0, 0, 1}, halo_normal_{0, 0, 1}, jet_normal_{0, 0, 1};  // in the lens's frame
+  V3d node_, quarter_;
+  GasOrbits orbits_;
+  std::optional<GasColour> halo_colour_, jet_colour_;
+  std::optional<PlaneClock> clock_;  // of a disc's pattern
+  double outer_ = 0, finest_ = 1, disc_step_ = 0, opacity_ = 1, gain_ = 1;
+};
+
+}  // namespace domefall

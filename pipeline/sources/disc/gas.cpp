@@ -1,0 +1,115 @@
+#include "pipeline/sources/disc/gas.h"
+
+#include <algorithm>
+
+#include "pipeline/base/simd/vector_math.h"
+#include "pipeline/sources/colour/blackbody.h"
+
+namespace domefall {
+namespace {
+
+// Returns the product of two Gaussians.
+double gaussians(double x, double y) { return exponential(-(x * x + y * y) / 2); }
+
+// Gas is left out where its Gaussians are below 1e-5.
+constexpr double kSigmas = 4.8;
+
+// Returns the angle from the nearer end of the axis.
+double from_axis(double latitude_sine) {
+  const double s = std::min(1.0, std::abs(latitude_sine));
+  return arc_tangent2(std::sqrt((1 - s) * (1 + s)), s);
+}
+
+}  // namespace
+
+double density(const Halo& halo, const GasOrbits& hole, const GasPlace& at) {
+  if (at.r <= hole.horizon()) return 0;
+  return gaussians(at.r / halo.r, at.latitude_sine / halo.height);
+}
+
+double density(const Jet& jet, const GasOrbits& hole, const GasPlace& at) {
+  const double x = std::min(1.0, (at.r - hole.horizon()) / jet.r), over = jet.r / at.r;
+  if (x <= 0) return 0;
+  return over * over * x * x * (3 - 2 * x) *
+         gaussians(from_axis(at.latitude_sine) / jet.opening, at.r / jet.length);
+}
+
+// With u_t = 1/sqrt(1/f - l^2/rho^2) its four-velocity is u_t (1, l) in (t, phi), so that k.u = u_t
+// (E/f - l L_n/rho^2).
+double sent_frequency(const Halo&, const GasOrbits& hole, const GasRay& ray, const GasPlace& at) {
+  const double s = at.latitude_sine, f = hole.lapse_squared(at.r);
+  const double rho = at.r * std::sqrt(std::max(1e-12, (1 - s) * (1 + s)));
+  const double turning = std::sqrt(rho) / (1 + rho);  // l/rho
+  return (ray.energy / f - turning * ray.about_axis / rho) / std::sqrt(1 / f - turning * turning);
+}
+
+// Against whoever rests, light has the energy E/sqrt(f), and the part k^r/E of it goes outwards.
+double sent_frequency(const Jet& jet, const GasOrbits& hole, const GasRay& ray,
+                      const GasPlace& at) {
+  const double f = hole.lapse_squared(at.r), l = ray.momentum / (at.r * ray.energy);
+  const double radial = std::sqrt(std::max(0.0, 1 - f * l * l)), g = jet.lorentz;
+  // gamma - sqrt(gamma^2 - 1) x is 1/(gamma + ...) for x = 1, without a difference of like numbers.
+  const double own = std::sqrt((g - 1) * (g + 1));
+  const double against =
+      at.outward ? 1 / (g + own) + own * (f * l * l / (1 + radial)) : g + own * radial;
+  return ray.energy / std::sqrt(f) * against;
+}
+
+double reach(const Halo& halo) { return kSigmas * halo.r; }
+double reach(const Jet& jet) { return kSigmas * jet.length; }
+
+double longest_step(const Halo& halo, double latitude_sine, double length) {
+  return latitude_sine > kSigmas * halo.height + length ? HUGE_VAL : halo.height / 2;
+}
+
+double longest_step(const Jet& jet, double latitude_sine, double length) {
+  // Most places are far from the axis, which the cosine tells by itself: 1 - a^2/2 <= cos a.
+  const double wide = kSigmas * jet.opening + length;
+  if (latitude_sine < 1 - wide * wide / 2 - 1e-9) return HUGE_VAL;
+  return jet.opening / 2;
+}
+
+namespace {
+
+constexpr double kLogRange = 14;  // g from e^-14 to e^14
+constexpr int kPerLog = 128;
+
+}  // namespace
+
+GasColour::GasColour(const GasTemperature& temperature, double luminance, double across,
+                     bool coloured, bool dimmed) {
+  const double scale = luminance / across;
+  const double own = temperature ? blackbody_xyz(*temperature).y : 1;
+  for (int k = 0; k <= 2 * kLogRange * kPerLog; ++k) {
+    const double g = exponential(k / static_cast<double>(kPerLog) - kLogRange);
+    WorkingRgb light{1, 1, 1};
+    double factor = scale;
+    if (temperature) {
+      const double t = *temperature * (coloured ? g : 1);
+      light = blackbody_colours().surface(t);
+      // A surface's light has g^4 in its colour.
+      const double g4 = g * g * g * g;
+      factor *= (coloured == dimmed ? 1 : dimmed ? g4 : 1 / g4) / own;
+    } else if (dimmed) {
+      factor *= g * g * g;
+    }
+    const auto value = [factor](float part) {
+      return static_cast<float>(std::min(factor * static_cast<double>(part), 1e30));
+    };
+    table_.push_back({value(light.r), value(light.g), value(light.b)});
+  }
+}
+
+WorkingRgb GasColour::light(double g) const {
+  const double last = static_cast<double>(table_.size()) - 1.001;
+  const double at = std::clamp((logarithm(std::max(g, 1e-300)) + kLogRange) * kPerLog, 0.0, last);
+  const auto node = static_cast<std::size_t>(at);
+  const auto part = static_cast<float>(at - static_cast<double>(node));
+  const auto value = [&](std::size_t c) {
+    const float low = table_[node][c];
+    return low + part * (table_[node + 1][c] - low);
+  };
+  return {value(0), value(1), value(2)};
+}
+
+}  // namespace domefall
