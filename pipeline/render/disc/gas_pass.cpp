@@ -19,7 +19,7 @@ using std::numbers::pi;
 constexpr double kSpacing = 0.04, kOfFinest = 0.25, kPixels = 2;
 // Rows for each factor e towards the edge, and the distance at which these end, in pixels.
 constexpr double kPerLogOfDisc = 24, kPerLog = 10, kNearest = 1.0 / 16;
-constexpr int kMostParts = 16;
+constexpr int kMostParts = 24;
 
 // Adds the weighted mean of blocks of eight.
 [[gnu::always_inline]] inline void add_blocks_loop(const float* const* from, const float* weights,
@@ -238,12 +238,18 @@ unsigned GasPass::find_values(double alpha, double x, double azimuth, double wid
   const double off = std::max(std::abs(alpha - edge_) - width / 2, least_);
   const double rows = width * (log_rows_ / off + even_rows_);
   if (rows <= 1) return add_values(side_of(alpha), x, azimuth, 1, values);
-  const int parts = std::min(static_cast<int>(std::ceil(rows)), kMostParts);
+  // The weights are a tent of a pixel and a half, about what a pixel's square has of a thin ring at any
+  // angle.
+  constexpr double kReach = 0.75;
+  const int parts = std::min(static_cast<int>(std::ceil(2 * kReach * rows)), kMostParts);
+  double sum = 0;
+  const auto place = [&](int k) { return kReach * (2 * k + 1 - parts) / parts; };
+  for (int k = 0; k < parts; ++k) sum += kReach - std::abs(place(k));
   unsigned lit = 0;
   for (int k = 0; k < parts; ++k) {
-    const double there = alpha + width * ((k + 0.5) / parts - 0.5);
+    const double there = alpha + width * place(k);
     lit |= add_values(side_of(there), x_of(std::abs(there - edge_)), azimuth,
-                      1.0f / static_cast<float>(parts), values);
+                      static_cast<float>((kReach - std::abs(place(k))) / sum), values);
   }
   return lit;
 }

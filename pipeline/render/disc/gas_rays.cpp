@@ -16,11 +16,16 @@ using std::numbers::pi;
 // A disc's gas is left out beyond so many of its heights, where 2e-6 of it is left.
 constexpr double kHeights = 4.75;
 // Steps are at most this part of a disc's height.
-constexpr double kFine = 0.5;
+constexpr double kFine = 0.3;
 
 WorkingRgb sum(const WorkingRgb& a, const WorkingRgb& b, double factor) {
   const auto f = static_cast<float>(factor);
   return {a.r + f * b.r, a.g + f * b.g, a.b + f * b.b};
+}
+
+// Returns from which part of an even layer of this optical depth its light comes in the mean.
+double depth_of_light(double depth) {
+  return depth < 1e-3 ? 0.5 - depth / 12 : 1 / depth - 1 / (exponential(depth) - 1);
 }
 
 }  // namespace
@@ -149,9 +154,15 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
       const double w = LightPath::inverse_radius(a, b, part);
       if (!(w > least && w < horizon)) continue;
       const SineCosine turned = sin_cos(psi);
-      const Layer one = layer(ray, {psi, way / steps, turned.cosine, turned.sine, 1 / w,
+      Layer one = layer(ray, {psi, way / steps, turned.cosine, turned.sine, 1 / w,
                                     a.time + part * (b.time - a.time), b.w > a.w});
       if (!(one.depth > 0 || one.light.r + one.light.g + one.light.b > 0)) continue;
+      if (one.depth > 0) {
+        one.psi -= (0.5 - depth_of_light(one.depth)) * way / steps;
+        const double there = (one.psi - a.psi) / (b.psi - a.psi);
+        one.r = static_cast<float>(1 / LightPath::inverse_radius(a, b, there));
+        one.time = a.time + there * (b.time - a.time);
+      }
       layers.push_back(one);
       depth += one.depth;
     }
@@ -205,7 +216,7 @@ GasSight GasRays::seen(const Ray& ray, const std::vector<Layer>& layers) const {
         scene_.disc->disc().slow_light ? clock_->time_at(radius, l.time) : clock_->observer_time();
     // Gas at another height has other filaments, since no pattern is the same all through the disc.
     constexpr double kOutwards = 2;
-    const double shown = share * radius * (1 + kOutwards * place.dot(disc_normal_));
+    const double shown = share * radius * (1 + kOutwards * std::abs(place.dot(disc_normal_)));
     to.x += static_cast<float>(shown * place.dot(node_));
     to.y += static_cast<float>(shown * place.dot(quarter_));
     to.time += static_cast<float>(share * (time - clock_->observer_time()));
