@@ -15,7 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Rays are this far apart (radians), or a quarter of what the gas changes over, or two pixels.
+// Rays are this far apart (radians), or a quarter of what the gas changes over, or two pixels if that is
+// more, but no more than half as much again.
 constexpr double kSpacing = 0.04, kOfFinest = 0.25, kPixels = 2;
 // Rows for each factor e towards the edge, and the distance at which these end, in pixels.
 constexpr double kPerLogOfDisc = 24, kPerLog = 10, kNearest = 1.0 / 16;
@@ -71,8 +72,9 @@ GasPass::GasPass(const FrameScene& scene)
                 : rays_.has_disc() ? kPerLogOfDisc
                                    : kPerLog),
       least_(kNearest * largest_pixel_angle(scene.projection())) {
-  const double spacing = std::max(std::min(kSpacing, kOfFinest * rays_.finest()),
-                                  kPixels * largest_pixel_angle(scene.projection()));
+  const double least = std::min(kSpacing, kOfFinest * rays_.finest()),
+               pixels = kPixels * largest_pixel_angle(scene.projection());
+  const double spacing = std::clamp(pixels, least, 1.5 * least);
   even_rows_ = 1 / spacing;
   columns_ = std::clamp(static_cast<int>(2 * pi / spacing), 64, 4096);
   blocks_ = rays_.has_pattern() ? kMostBlocks : 1;
