@@ -15,7 +15,9 @@ using std::numbers::pi;
 
 // A disc's gas is left out beyond so many of its heights, where 2e-6 of it is left.
 constexpr double kHeights = 4.75;
-// Steps are at most this part of a disc's height.
+// Steps are at most this part of a disc's height, on rays that cross it at a right angle, and no longer
+// than for this sine of the angle between ray and plane.
+constexpr double kLeastRate = 0.3;
 constexpr double kFine = 0.3;
 
 WorkingRgb sum(const WorkingRgb& a, const WorkingRgb& b, double factor) {
@@ -93,8 +95,10 @@ int GasRays::steps_between(const LightPath::Place& a, const LightPath::Place& b,
   if (jet_) longest = std::min(longest, longest_step(*jet_, latitude(jet_normal_), length));
   if (disc_ && std::min(a.w, b.w) < 1 / disc_->inner) {
     // The sine of a latitude changes by no more than the angle.
-    if (latitude(disc_normal_) < kHeights * disc_->height + length / 2)
-      longest = std::min(longest, disc_step_);
+    if (latitude(disc_normal_) < kHeights * disc_->height + length / 2) {
+      const double rate = std::abs(cosine * across.dot(disc_normal_) - sine * disc_normal_.x);
+      longest = std::min(longest, disc_step_ / std::max(rate, kLeastRate));
+    }
   }
   return static_cast<int>(std::ceil(length / longest));
 }
@@ -155,7 +159,7 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
       if (!(w > least && w < horizon)) continue;
       const SineCosine turned = sin_cos(psi);
       Layer one = layer(ray, {psi, way / steps, turned.cosine, turned.sine, 1 / w,
-                                    a.time + part * (b.time - a.time), b.w > a.w});
+                              a.time + part * (b.time - a.time), b.w > a.w});
       if (!(one.depth > 0 || one.light.r + one.light.g + one.light.b > 0)) continue;
       if (one.depth > 0) {
         one.psi -= (0.5 - depth_of_light(one.depth)) * way / steps;

@@ -28,6 +28,7 @@ double density(const Halo& halo, const GasOrbits& hole, const GasPlace& at) {
 }
 
 double density(const Jet& jet, const GasOrbits& hole, const GasPlace& at) {
+  if (longest_step(jet, std::abs(at.latitude_sine), 0) == HUGE_VAL) return 0;
   const double x = std::min(1.0, (at.r - hole.horizon()) / jet.r), over = jet.r / at.r;
   if (x <= 0) return 0;
   return over * over * x * x * (3 - 2 * x) *
