@@ -101,6 +101,11 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   add_effects(common, show.effects);
   add_disc(common, show.disc);
   add_gas(common, show);
+  for (const PatternKind& pattern : show.disc ? show.disc->patterns : std::vector<PatternKind>{})
+    if (const auto* map = std::get_if<MapPattern>(&pattern)) {
+      stamp(map->file);
+      common.add_file(map->file);
+    }
   if (show.glare.share > 0) common.add("glare").add(show.glare.share).add(show.glare.sigma);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   for (const Body& body : show.bodies) {

@@ -58,6 +58,7 @@ void add_disc(Digest& digest, const std::optional<Disc>& disc) {
       digest.add(p->contrast).add(p->orbits).add(static_cast<double>(p->seed));
     if (const auto* p = std::get_if<RingPattern>(&pattern))
       digest.add(p->spacing).add(p->contrast).add(p->inward_speed);
+    if (const auto* p = std::get_if<MapPattern>(&pattern)) digest.add(p->at);
     if (const auto* p = std::get_if<SpotPattern>(&pattern))
       digest.add(p->r).add(p->azimuth).add(p->size).add(p->brightness);
   }

@@ -36,7 +36,7 @@ DiscPass::DiscPass(const FrameScene& scene) : scene_(scene) {
   plane_ = scene.tracer.lens()->plane({normal, disc.inner, disc.outer, !disc.patterns.empty()},
                                       observer.null_time);
   if (disc.height > 0) gas_.emplace(scene);
-  if (!disc.patterns.empty()) pattern_.emplace(disc.patterns, disc.orbits);
+  pattern_ = scene.disc->pattern();
   node_ = apply_transposed(observer.sky_from_tetrad, disc.node.v);
   quarter_ = normal.cross(node_);
 }

@@ -15,7 +15,6 @@
 #include "pipeline/render/disc/gas_rays.h"
 #include "pipeline/render/scene/frame_scene.h"
 #include "pipeline/sources/disc/disc_light.h"
-#include "pipeline/sources/disc/disc_pattern.h"
 
 namespace domefall {
 
@@ -80,7 +79,7 @@ class DiscPass {
   const FrameScene& scene_;
   std::unique_ptr<const PlaneRays> plane_;
   std::optional<GasRays> gas_;  // of a disc with a height
-  std::optional<DiscPattern> pattern_;
+  const DiscPattern* pattern_ = nullptr;
   V3d node_, quarter_;  // where azimuths of the pattern begin, and a quarter of a turn on
 };
 

@@ -78,10 +78,7 @@ GasPass::GasPass(const FrameScene& scene)
   even_rows_ = 1 / spacing;
   columns_ = std::clamp(static_cast<int>(2 * pi / spacing), 64, 4096);
   blocks_ = rays_.has_pattern() ? kMostBlocks : 1;
-  if (rays_.has_pattern()) {
-    const Disc& disc = scene.disc->disc();
-    pattern_.emplace(disc.patterns, disc.orbits);
-  }
+  if (rays_.has_pattern()) pattern_ = scene.disc->pattern();
   if (edge_ > 0) add_side(-1, edge_);
   add_side(1, pi - edge_);
   std::size_t rows = 0;

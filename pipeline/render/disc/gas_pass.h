@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "pipeline/render/disc/gas_rays.h"
-#include "pipeline/sources/disc/disc_pattern.h"
 
 namespace domefall {
 
@@ -61,7 +60,7 @@ class GasPass {
                       Values& values) const;
 
   GasRays rays_;
-  std::optional<DiscPattern> pattern_;
+  const DiscPattern* pattern_ = nullptr;
   double exposure_, edge_ = 0;
   double log_rows_, even_rows_, least_;  // a, b, e
   int columns_;

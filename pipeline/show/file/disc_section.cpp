@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/errors.h"
+#include "pipeline/image/read_image.h"
 #include "pipeline/show/file/sections.h"
 #include "pipeline/show/placement.h"
 
@@ -30,11 +32,29 @@ void read_radii(const Section& s, Disc& disc) {
                             short_number(disc.outer), as_written(*inner)));
 }
 
-std::optional<PatternKind> read_pattern(const Item& item, const GasOrbits& orbits) {
-  enum class Type { kTurbulence, kRings, kSpot, kNone };
+// Reads a picture of the disc, whose header must be whole.
+std::optional<PatternKind> read_map(const Item& item, const Disc& disc, const Lookup& lookup) {
+  const Section s(item, {"pattern", "pattern.file"});
+  MapPattern map{{}, s.number("at_m"), disc.inner, disc.outer};
+  const Item* name = s.require("file", "a picture");
+  const auto text = name ? read_text(*name) : std::nullopt;
+  const auto file = text ? lookup.file(*name, *text) : std::nullopt;
+  if (!file) return std::nullopt;
+  try {
+    const InputImage picture(*file);
+  } catch (const InputError& error) {
+    return name->fail(std::string("cannot be used: ") + error.what());
+  }
+  map.file = *file;
+  return map;
+}
+
+std::optional<PatternKind> read_pattern(const Item& item, const Disc& disc, const Lookup& lookup) {
+  enum class Type { kTurbulence, kRings, kSpot, kFile, kNone };
   const Item* map = item.node.IsMap() ? &item : nullptr;
   const auto type = map ? peek(item, "type") : std::optional(item);
-  if (!type) return item.fail("needs a type: turbulence, rings or spot");
+  if (!type && map && peek(item, "file")) return read_map(item, disc, lookup);
+  if (!type) return item.fail("needs a type: turbulence, rings, spot or file");
   const auto chosen = read_choice(*type, keys_of("pattern")[0].words());
   if (!chosen) return std::nullopt;
   switch (static_cast<Type>(*chosen)) {
@@ -50,9 +70,11 @@ std::optional<PatternKind> read_pattern(const Item& item, const GasOrbits& orbit
     case Type::kSpot: {
       const Section s(map, {"pattern", "spot"});
       const double r =
-          s.given("r", s.range("r").at_least(orbits.last_stable())).value_or(SpotPattern().r);
+          s.given("r", s.range("r").at_least(disc.orbits.last_stable())).value_or(SpotPattern().r);
       return SpotPattern{r, s.angle("azimuth_deg"), s.number("size_r"), s.number("brightness")};
     }
+    case Type::kFile:
+      return read_map(item, disc, lookup);
     case Type::kNone:
       break;
   }
@@ -60,10 +82,10 @@ std::optional<PatternKind> read_pattern(const Item& item, const GasOrbits& orbit
 }
 
 // Reads one pattern, or a list of them.
-std::vector<PatternKind> read_patterns(const Item& item, const GasOrbits& orbits) {
+std::vector<PatternKind> read_patterns(const Item& item, const Disc& disc, const Lookup& lookup) {
   std::vector<PatternKind> patterns;
   const auto add = [&](const Item& one) {
-    const std::optional<PatternKind> pattern = read_pattern(one, orbits);
+    const std::optional<PatternKind> pattern = read_pattern(one, disc, lookup);
     if (!pattern) return;
     const bool again = !std::holds_alternative<SpotPattern>(*pattern) &&
                        std::any_of(patterns.begin(), patterns.end(), [&](const PatternKind& other) {
@@ -114,7 +136,7 @@ OrbitPlane read_orbit_plane(const Section& s, const Show& to) {
           {(north * std::cos(inclination) - onward * std::sin(inclination)).normalized()}};
 }
 
-std::optional<Disc> read_disc(const Section& show, const Show& to) {
+std::optional<Disc> read_disc(const Section& show, const Show& to, const Lookup& lookup) {
   const Item* item = show.find("disc");
   if (item == nullptr) return std::nullopt;
   const Section s(item, {"disc", "disc.light"});
@@ -129,7 +151,8 @@ std::optional<Disc> read_disc(const Section& show, const Show& to) {
   disc.optical_depth = s.number("optical_depth"), disc.rim = s.number("rim");
   disc.height = s.number("height");
   disc.opacity = s.number("opacity");
-  if (const Item* pattern = s.find("pattern")) disc.patterns = read_patterns(*pattern, disc.orbits);
+  if (const Item* pattern = s.find("pattern"))
+    disc.patterns = read_patterns(*pattern, disc, lookup);
   disc.slow_light = s.flag("slow_light");
   return disc;
 }

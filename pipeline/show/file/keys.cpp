@@ -246,7 +246,7 @@ constexpr std::string_view kRows = R"(
 | `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: how bright that ring is to an observer who moves with it | [1e-2, which is pixel value 10 at 0 EV] |
 | `opacity` | 0 to 1: the part of the light from behind it that it takes away; its own light is the same part of what it would be | [1] |
 ## pattern
-| `type` | `turbulence`, `rings`, `spot` or `none`: a pattern with the keys below | required |
+| `type` | `turbulence`, `rings`, `spot`, `file` or `none`: a pattern with the keys below; `file` where a `file` is named | required |
 ## turbulence
 | `contrast` | 0 to 1: with 1 the gaps go dark | [1] |
 | `orbits` | 0.5 to 20 orbits: of its place, as long as a filament lives: the longer, the more is it wound up | [1] |
@@ -260,6 +260,9 @@ constexpr std::string_view kRows = R"(
 | `azimuth_deg` | -360 to 360: where it is at t = 0, in its orbit's sense from where the gas rises through the plane of the observer's orbits | [0] |
 | `size_r` | 0.01 to 10: the standard deviation of its brightness | [0.7] |
 | `brightness` | 1 to 1e4 times the gas beside it: of its middle | [5] |
+## pattern.file
+| `file` | a picture: its columns are azimuths from where the gas rises through the plane of the observer's orbits, in its sense, its rows radii from `inner_r` at the bottom to `outer_r` at the top | required |
+| `at_m` | -1e9 to 1e9: the t at which it looks as painted; before and after the gas has carried it along | [0] |
 ## halo
 | `r` | 3 to 1e4: its density falls as exp(-(r/`r`)²/2) | [4] |
 | `height` | 0.02 to 2: its density falls as exp(-(s/`height`)²/2) with the sine s of the latitude | [0.3] |

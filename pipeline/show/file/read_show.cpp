@@ -109,7 +109,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.projection = camera.projection;
   read_stars(section, show);
   read_sky(root, section, lookup, show);
-  show.disc = read_disc(section, show);
+  show.disc = read_disc(section, show, lookup);
   show.halo = read_halo(section, show);
   show.jet = read_jet(section, show);
   show.exposure = read_exposure(section);

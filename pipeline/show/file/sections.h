@@ -54,7 +54,7 @@ OrbitPlane read_orbit_plane(const Section& s, const Show& to);
 
 // Reads `disc`, or returns nothing where the show has none.  The black hole of `to` must have been
 // read, here and for `bodies`.
-std::optional<Disc> read_disc(const Section& show, const Show& to);
+std::optional<Disc> read_disc(const Section& show, const Show& to, const Lookup& lookup);
 // Reads `halo` and `jet`, after the disc of `to`, which they must be able to shine through.
 std::optional<Halo> read_halo(const Section& show, const Show& to);
 std::optional<Jet> read_jet(const Section& show, const Show& to);

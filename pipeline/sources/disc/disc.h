@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <variant>
 #include <vector>
@@ -42,7 +43,16 @@ struct SpotPattern {
 
   bool operator==(const SpotPattern&) const = default;
 };
-using PatternKind = std::variant<TurbulencePattern, RingPattern, SpotPattern>;
+// A MapPattern is a picture of the disc: azimuths from Disc::node, in the sense of the orbits, go to the
+// right, and radii from `inner` to `outer` upwards.  It looks as painted at t = `at`.
+struct MapPattern {
+  std::filesystem::path file;
+  double at = 0;  // M
+  double inner = 6, outer = 20;
+
+  bool operator==(const MapPattern&) const = default;
+};
+using PatternKind = std::variant<TurbulencePattern, RingPattern, SpotPattern, MapPattern>;
 
 // ---- the disc ----
 
@@ -71,7 +81,7 @@ struct Disc {
   double opacity = 1;  // all that it takes away and sends is this part of what it would be, 0 to 1
   // This says whether matter falls in from the last stable orbit, and shines on its way.
   bool plunging = false;
-  // Gas has at most one pattern of turbulence and one of rings, which multiply, and any number of
+  // Gas has at most one pattern of turbulence, of rings and of a map, which multiply, and any number of
   // spots.
   std::vector<PatternKind> patterns{};
   // This says whether patterns are seen as they were when the light left them.  Otherwise all of it is

@@ -165,6 +165,7 @@ DiscLight::DiscLight(const Disc& disc)
     : disc_(disc),
       profile_(disc.plunging, disc.orbits),
       scale_(disc.luminance / blackbody_xyz(disc.t_max_k).y) {
+  if (!disc.patterns.empty()) pattern_.emplace(disc.patterns, disc.orbits);
   const double innermost = v_at_horizon(disc.orbits);
   const int nodes = static_cast<int>(std::ceil(innermost * kPerUnit)) + 2;
   for (int k = 0; k < nodes; ++k) {

@@ -2,12 +2,13 @@
 // the way to an observer.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "pipeline/light/null_ray.h"
 #include "pipeline/sources/colour/colour_space.h"
-#include "pipeline/sources/disc/disc.h"
+#include "pipeline/sources/disc/disc_pattern.h"
 #include "trajectories/directions.h"
 
 namespace domefall {
@@ -70,9 +71,12 @@ class PageThorneProfile {
 // luminance for whoever moves with it.
 class DiscLight {
  public:
+  // Throws as DiscPattern.
   explicit DiscLight(const Disc& disc);
 
   const Disc& disc() const { return disc_; }
+  // The pattern of its gas, or null.
+  const DiscPattern* pattern() const { return pattern_ ? &*pattern_ : nullptr; }
 
   // Returns the temperature in the gas's own frame (K).  It is 0 where there is no gas of the
   // profile, whatever the disc's radii are.
@@ -89,6 +93,7 @@ class DiscLight {
  private:
   Disc disc_;
   PageThorneProfile profile_;
+  std::optional<DiscPattern> pattern_;
   double scale_;  // from a blackbody's luminance to the show's
   // This is log2 T without what is singular in it, at even steps of sqrt(r_s/r).
   std::vector<float> table_;

@@ -398,6 +398,16 @@ SpotLight spot_light(const SpotPattern& spot, const GasOrbits& orbits, const Pat
   return {mean * wrapped_gaussian(angle, wide), mean};
 }
 
+// Gas that is further in has turned further since the map was painted, so that a footprint is the wider
+// the higher it is.
+double map_factor(const PatternMap& map, double painted, const GasOrbits& orbits,
+                  const PatternPlace& at) {
+  const double age = at.time - painted, turning = orbits.angular_velocity(at.r);
+  const double turns = turning / kTwoPi * age, sheared = orbits.shear(at.r) * turning / at.r * age;
+  return map.mean(at.r, at.azimuth - (turns - std::floor(turns)) * kTwoPi, at.r_width,
+                  std::hypot(at.azimuth_width, sheared * at.r_width));
+}
+
 double ring_factor(const RingPattern& rings, const PatternPlace& at) {
   const double turns = (at.r + rings.inward_speed * at.time) / rings.spacing;
   // The mean of a cosine over a pixel is that in its middle times sin(width)/width.  This Gaussian
@@ -460,8 +470,10 @@ DiscPattern::DiscPattern(std::span<const PatternKind> kinds, const GasOrbits& or
       turbulence_.emplace(*turbulence, orbits);
     else if (const auto* rings = std::get_if<RingPattern>(&kind))
       rings_ = *rings;
+    else if (const auto* spot = std::get_if<SpotPattern>(&kind))
+      spots_.push_back(*spot);
     else
-      spots_.push_back(std::get<SpotPattern>(kind));
+      map_.emplace(std::get<MapPattern>(kind)), map_at_ = std::get<MapPattern>(kind).at;
   }
 }
 
@@ -470,10 +482,11 @@ void DiscPattern::factors(std::span<const PatternPlace> places, std::span<float>
     turbulence_->factors(places, out);
   else
     std::fill(out.begin(), out.end(), 1.0f);
-  if (!rings_ && spots_.empty()) return;
+  if (!rings_ && !map_ && spots_.empty()) return;
   for (std::size_t k = 0; k < places.size(); ++k) {
     double light = out[k], mean = 1;
     if (rings_) light *= ring_factor(*rings_, places[k]);
+    if (map_) light *= map_factor(*map_, map_at_, orbits_, places[k]);
     for (const SpotPattern& spot : spots_) {
       const SpotLight more = spot_light(spot, orbits_, places[k]);
       light += more.light, mean += more.mean;

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/sources/disc/disc.h"
+#include "pipeline/sources/disc/pattern_map.h"
 
 namespace domefall {
 
@@ -47,9 +47,10 @@ class Turbulence {
 
 class DiscPattern {
  public:
+  // Throws as PatternMap where there is a map.
   explicit DiscPattern(std::span<const PatternKind> kinds, const GasOrbits& orbits = GasOrbits());
 
-  // Turbulence and rings multiply each other.  Spots add their light, as parts of even gas, and the
+  // Turbulence, rings and a map multiply each other.  Spots add their light, as parts of even gas, and the
   // sum is divided by its mean around the ring.
 
   void factors(std::span<const PatternPlace> places, std::span<float> out) const;
@@ -59,6 +60,8 @@ class DiscPattern {
   std::optional<Turbulence> turbulence_;
   std::optional<RingPattern> rings_;
   std::vector<SpotPattern> spots_;
+  std::optional<PatternMap> map_;
+  double map_at_ = 0;
 };
 
 }  // namespace domefall

@@ -160,11 +160,13 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
       {"disc: {t_max_k: 900}", "3:17: disc.t_max_k must be at least 1000 (kelvin), got 900"},
       {"disc: {luminance_cd_m2: 0}", "3:25: disc.luminance_cd_m2 must exceed 0 (cd/m^2), got 0"},
       {"disc: {opacity: 1.5}", "3:17: disc.opacity must be at most 1, got 1.5"},
-      {"disc: {pattern: {seed: 1}}", "3:17: disc.pattern needs a type: turbulence, rings or spot"},
+      {"disc: {pattern: {seed: 1}}",
+       "3:17: disc.pattern needs a type: turbulence, rings, spot or file"},
       {"disc: {pattern: stripes}",
-       "3:17: disc.pattern must be turbulence, rings, spot or none, got 'stripes'"},
+       "3:17: disc.pattern must be turbulence, rings, spot, file or none, got 'stripes'"},
       {"disc: {pattern: {type: spots}}",
-       "3:24: disc.pattern.type must be turbulence, rings, spot or none, got 'spots'; did you mean "
+       "3:24: disc.pattern.type must be turbulence, rings, spot, file or none, got 'spots'; did "
+       "you mean "
        "spot?"},
       {"disc: {pattern: {type: rings, seed: 2}}",
        "3:31: disc.pattern.seed is an unknown key; known here: type, spacing_r, contrast or "
@@ -177,6 +179,14 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
        "3:36: disc.pattern[3] is of a type that is there already: only spots can be several"},
       {"disc: {pattern: [spot, {type: spot, r: 5}]}",
        "3:40: disc.pattern[2].r must be at least 6 (units of M), got 5"},
+      {"disc: {pattern: {file: nowhere.exr}}",
+       "3:24: disc.pattern.file names the file 'nowhere.exr', which is neither beside the show nor "
+       "in the working folder"},
+      {"disc: {pattern: {file: show.yaml}}",
+       "3:24: disc.pattern.file cannot be used: show.yaml: the image cannot be read: by its first "
+       "bytes it is not OpenEXR, PNG, TIFF, JPEG, Radiance (HDR) or WebP"},
+      {"disc: {pattern: file}",
+       "3:17: disc.pattern must be a map of keys (type, file or at_m), got 'file'"},
       {"disc: {slow_light: 3}", "3:20: disc.slow_light must be true or false, got '3'"},
       {"disc: {plunging: maybe}", "3:18: disc.plunging must be true or false, got 'maybe'"},
   });
