@@ -6,16 +6,16 @@ cd "$(dirname "$0")/../.."
 domefall=${1:-build/release/domefall}
 out=${2:-out/gallery}/disc
 
-# The frames from the first to the last, in steps.
+# The frames of a show from the first to the last, in steps, small and side by side.
 strip() {
-  local name=$1 first=$2 last=$3 step=$4 files=() frame
-  "$domefall" render shows/disc.yaml --size 1k --frames "$first-${last}x$step" --out "$out/strip"
+  local show=$1 name=$2 first=$3 last=$4 step=$5 files=() frame
+  "$domefall" render "shows/$show.yaml" --size 1k --frames "$first-${last}x$step" --out "$out/$show"
   for frame in $(seq "$first" "$step" "$last"); do
-    printf -v picture '%s/strip/graded/disc_%05d.png' "$out" "$frame"
+    printf -v picture '%s/%s/graded/%s_%05d.png' "$out" "$show" "$show" "$frame"
     oiiotool "$picture" --ch R,G,B --resize 320x320 -o "$out/small_$frame.tif"
     files+=("$out/small_$frame.tif")
   done
-  oiiotool "${files[@]}" --mosaic 4x2 --compression jpeg:80 -o "docs/gallery/disc_$name.jpg"
+  oiiotool "${files[@]}" --mosaic 4x2 --compression jpeg:80 -o "docs/gallery/$name.jpg"
 }
 
 mkdir -p "$out"
@@ -27,8 +27,35 @@ for frame in "${frames[@]}"; do
 done
 oiiotool "$out/graded/disc_00653.png" --ch R,G,B --cut 1000x700+1500+2400 --compression jpeg:84 \
   -o docs/gallery/disc_crop.jpg
-strip plane 857 885 4
-strip horizon 1740 1789 7
+strip disc disc_plane 857 885 4
+strip disc disc_horizon 1740 1789 7
+
+frames=(1380 1950 3000 4020 4740)
+"$domefall" render shows/close_to_the_fire.yaml --size 4k --frames "$(IFS=,; echo "${frames[*]}")" --out "$out/fire"
+for frame in "${frames[@]}"; do
+  printf -v name 'close_to_the_fire_%05d' "$frame"
+  oiiotool "$out/fire/graded/$name.png" --ch R,G,B --resize 700x700 --compression jpeg:84 -o "docs/gallery/$name.jpg"
+done
+strip close_to_the_fire close_to_the_fire_sheet 450 4825 625
+strip close_to_the_fire close_to_the_fire_plane 1736 1792 8
+
+# A halo and jets around the hole alone.
+gas() {
+  local name=$1 gas=$2
+  cat >"$out/$name.yaml" <<SHOW
+size: [900, 700]
+black_hole: {mass_solar: 6.5e9}
+$gas
+camera: {projection: rectilinear, fov_deg: 50, look_at: hole}
+timeline:
+  - {duration_s: 1, trajectory: {type: static, r: 40}}
+SHOW
+  "$domefall" render "$out/$name.yaml" --frames 0 --out "$out/$name"
+}
+gas halo 'halo: {inclination_deg: 70, t_k: 3500}'
+gas jet 'jet: {inclination_deg: 25, t_k: 9000}'
+oiiotool "$out"/{halo/graded/halo,jet/graded/jet}_00000.png --mosaic 2x1 --ch R,G,B \
+  --resize 1000x389 --compression jpeg:86 -o docs/gallery/disc_halo_jet.jpg
 
 # As the film's renderer had it, and with its shifts of frequency left out, as in the film.
 view() {

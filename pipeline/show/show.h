@@ -195,6 +195,10 @@ struct PointSpreadLaw {
 // stars would look uniform.  The law of the paper has its own balance.
 inline double default_star_gain(const PointSpreadLaw& law) { return law.halo > 0 ? 0.4 : 1; }
 
+// The luminance (cd/m^2) of pixel value 1 at 0 EV is ten times that of the Milky Way's brightest
+// part.
+inline constexpr double kReferenceLuminance = 1e-3;
+
 struct Exposure {
   double ev = 0;  // stops; pixel value 1 is kReferenceLuminance / 2^ev
   // The shutter is open for this part of the time between two frames, about each frame's instant.

@@ -7,10 +7,6 @@
 
 namespace domefall {
 
-// The luminance (cd/m^2) of pixel value 1 at 0 EV is ten times that of the Milky Way's brightest
-// part.
-inline constexpr double kReferenceLuminance = 1e-3;
-
 // Returns the pixel value of 1 cd/m^2.  FrameScene takes it once for each instant, and the light of
 // skies, stars, discs and bodies is multiplied by it.
 inline double exposure_scale(const FrameSettings& settings) {

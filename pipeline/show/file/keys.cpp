@@ -305,6 +305,7 @@ constexpr std::string_view kRows = R"(
 | `share` | 0 to 0.9: the part of all light that is spread around; 0 for none | [0.12 with a disc or bodies that have a radius, else 0] |
 | `width_deg` | 0.3 to 5: the standard deviation of the narrowest part; the others are 4, 15 and 50 times as wide | [0.5] |
 ## shutter
+| `disc` | above 0, at most 65504: instead of `ev`, that at which the disc's hottest ring has this pixel value for whoever moves with it | |
 | `shutter_deg` | 0 to 360: how long the shutter is open, as a film camera's: 180 is half the time from one frame to the next, 360 all of it; 0 is the instant alone | [0] |
 ## grade
 | `config` | an OpenColorIO configuration | the one that Domefall ships |

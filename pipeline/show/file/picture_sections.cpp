@@ -175,10 +175,18 @@ void read_stars(const Section& show, Show& to) {
   to.least_star_radius = s.angle("least_radius_deg");
 }
 
-Exposure read_exposure(const Section& show) {
+Exposure read_exposure(const Section& show, const Show& of) {
   const Section s(show.find("exposure"), {"exposure", "shutter"});
+  s.one_of({"ev", "disc"});
+  double ev = s.number("ev");
+  if (const auto value = s.given("disc")) {
+    if (of.disc)
+      ev = std::log2(*value * kReferenceLuminance / of.disc->luminance);
+    else
+      s.find("disc")->fail("needs a disc: give the show one");
+  }
   // A film camera's shutter of 360 degrees is open from one frame to the next.
-  return {s.number("ev"), s.number("shutter_deg") / 360};
+  return {ev, s.number("shutter_deg") / 360};
 }
 
 // Only what is brighter than skies by far glares visibly, and all others save the time.

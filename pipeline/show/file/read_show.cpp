@@ -112,7 +112,7 @@ void read_sections(const Item& root, Lookup& lookup, Show& show) {
   show.disc = read_disc(section, show, lookup);
   show.halo = read_halo(section, show);
   show.jet = read_jet(section, show);
-  show.exposure = read_exposure(section);
+  show.exposure = read_exposure(section, show);
   show.glare = read_glare(section, show);
   show.effects = read_effects(section);
   show.grade = read_grade(section, lookup);

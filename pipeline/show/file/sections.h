@@ -17,7 +17,8 @@ namespace domefall {
 // Reads `stars`: the point-spread law, the saturation and the least radius of stars.  Also sets the
 // gain that they have in skies for which read_sky() finds none.
 void read_stars(const Section& show, Show& to);
-Exposure read_exposure(const Section& show);
+// The disc of `of` must have been read.
+Exposure read_exposure(const Section& show, const Show& of);
 // The bodies and the disc of `of` must have been read.
 Glare read_glare(const Section& show, const Show& of);
 Effects read_effects(const Section& show);
