@@ -30,6 +30,17 @@ double depth_of_light(double depth) {
   return depth < 1e-3 ? 0.5 - depth / 12 : 1 / depth - 1 / (exponential(depth) - 1);
 }
 
+// Returns the part of the way from one place to the next on which 1/r comes to w, or 0.
+double part_at(const LightPath::Place& a, const LightPath::Place& b, double w) {
+  if ((a.w > w) == (b.w > w)) return 0;
+  double low = 0, high = 1;
+  for (int k = 0; k < 40; ++k) {
+    const double middle = (low + high) / 2;
+    ((LightPath::inverse_radius(a, b, middle) > w) == (a.w > w) ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace
 
 GasRays::GasRays(const FrameScene& scene)
@@ -152,9 +163,12 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
     // Where the path is only inside the horizon or beyond all gas, there is nothing.
     if ((a.w < least && b.w < least) || (a.w > horizon && b.w > horizon)) continue;
     const int steps = steps_between(a, b, across);
-    const double way = std::min(b.psi, until) - a.psi;
+    // Steps begin and end on the horizon itself, where gas may be opaque.
+    const double crossed = part_at(a, b, horizon) * (b.psi - a.psi);
+    const double from = a.psi + (a.w > horizon ? crossed : 0),
+                 to = std::min(b.w > horizon ? a.psi + crossed : b.psi, until), way = to - from;
     for (int n = 0; n < steps; ++n) {
-      const double psi = a.psi + way * (n + 0.5) / steps, part = (psi - a.psi) / (b.psi - a.psi);
+      const double psi = from + way * (n + 0.5) / steps, part = (psi - a.psi) / (b.psi - a.psi);
       const double w = LightPath::inverse_radius(a, b, part);
       if (!(w > least && w < horizon)) continue;
       const SineCosine turned = sin_cos(psi);
