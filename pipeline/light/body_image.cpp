@@ -171,6 +171,18 @@ double emitted(const View& view, const BodyPoint& body, const Light& light) {
   return there.frequency * body.gamma - there.along_r * body.radial - around;
 }
 
+// Returns the direction in which the light left.
+template <class View>
+V3d ray_of(const View& view, const Guess& guess) {
+  const BodyPoint& body = guess.body;
+  const PlaceLight& light = guess.light->place;
+  const double swept = light.angular_momentum / body.r;
+  const Received there =
+      received(view, body.r, light.energy, radial_momentum(view, body, light), swept);
+  const V3d onward = guess.light->across * std::cos(guess.psi) - V3d(std::sin(guess.psi), 0, 0);
+  return (body.direction * there.along_r - onward * swept) / there.frequency;
+}
+
 // Of the terms of the frequency only the last depends on the ray's plane: (R x e).L' = e.(L' x R).
 V3d swing(const BodyPoint& body, const Light& light) {
   return body.angular_momentum.cross(V3d(1, 0, 0)) *
@@ -237,10 +249,35 @@ std::optional<BodyImage> body_image(const View& view, double null_time, const Bo
                    light.across,
                    swing(guess.body, light),
                    light.place.angle_per_length,
-                   light.place.angle_per_psi};
+                   light.place.angle_per_psi,
+                   ray_of(view, guess),
+                   guess.body.celerity()};
+}
+
+template <class View>
+std::optional<SeenPlace> place_seen(const View& view, double null_time, double r, double psi) {
+  if (!(r > horizon(view))) return std::nullopt;
+  const auto light = image_of_place(view, r, psi, 0);
+  if (!light) return std::nullopt;
+  BodyPoint body{};
+  body.r = r;
+  const double k_r = radial_momentum(view, body, *light);
+  const Received there = received(view, r, light->energy, k_r, light->angular_momentum / r);
+  const double angle = 2 * std::atan2(light->sin_half, light->cos_half);
+  return SeenPlace{*light, is_outgoing(view) ? std::numbers::pi - angle : angle,
+                   null_time + light->null_time + (is_outgoing(view) ? 2 * tortoise(view, r) : 0),
+                   there.frequency, there.along_r};
 }
 
 }  // namespace
+
+std::optional<SeenPlace> seen_place(const PlaceView& view, double null_time, double r, double psi) {
+  return place_seen(view, null_time, r, psi);
+}
+std::optional<SeenPlace> seen_place(const ChargedPlaceView& view, double null_time, double r,
+                                    double psi) {
+  return place_seen(view, null_time, r, psi);
+}
 
 std::optional<BodyImage> image_of_body(const PlaceView& view, double null_time,
                                        const BodyMotion& motion, int order, double radius) {

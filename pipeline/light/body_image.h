@@ -21,6 +21,8 @@ struct BodyPoint {
   double gamma, radial;  // of the celerity: its gamma, and its component along R
   V3d angular_momentum;  // r u^phi about its axis, units of M
   double l = 0;          // in a wormhole, whose R points to greater l
+
+  V3d celerity() const { return direction * radial + angular_momentum.cross(direction) / r; }
 };
 
 // A BodyMotion gives the points of a body for tau in (begin, end), over which v grows with tau.
@@ -43,6 +45,8 @@ struct BodyImage {
   // Light of the plane of R and e instead is emitted with 1/frequency_ratio + swing.(e - across).
   V3d swing;
   double angle_per_length, angle_per_psi;  // PlaceImage's
+  V3d ray;  // unit: the direction in which the light left, in the frame that `celerity` is against
+  V3d celerity;
 };
 
 // Returns the image of an order.  Order 0 is the direct image, and odd orders are seen on the other
@@ -59,5 +63,21 @@ std::optional<BodyImage> image_of_body(const ChargedPlaceView& view, double null
 // The same in a wormhole, on either side of it, where rain is at rest and v = t + l.
 std::optional<BodyImage> image_of_body(const WormholePlaceView& view, double null_time,
                                        const BodyMotion& motion, int order, double radius);
+
+// A SeenPlace is a place of region I whose light is seen by an observer at an instant.
+struct SeenPlace {
+  PlaceLight light;
+  double from_hole;  // the direction's angle from the hole, radians
+  double null_time;  // v at which that light left
+  // Its frequency in the frame of BodyPoint::gamma, where it is one in the tetrad, and the component
+  // of its motion along R, times that frequency.
+  double frequency, along_r;
+};
+
+// Returns the light of a place at psi >= 0, as image_of_body does.  Nothing is returned where none
+// gets to the observer.
+std::optional<SeenPlace> seen_place(const PlaceView& view, double null_time, double r, double psi);
+std::optional<SeenPlace> seen_place(const ChargedPlaceView& view, double null_time, double r,
+                                    double psi);
 
 }  // namespace domefall

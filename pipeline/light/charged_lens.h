@@ -44,6 +44,9 @@ class ChargedLens : public SphericalLens {
   std::optional<GasView> gas_view() const override {
     return GasView{{hole_, r_, optics().tetrad}, own_edge()};
   }
+  std::optional<SeenPlace> place(double null_time, double r, double psi) const override {
+    return seen_place(ChargedPlaceView{hole_, r_, false}, null_time, r, psi);
+  }
   std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override {
     return std::make_unique<PlaneRays>(PlaneView{hole_, r_, optics().tetrad}, null_time, rings);
   }

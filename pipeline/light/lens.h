@@ -146,6 +146,8 @@ class Lens {
   virtual std::optional<BodyImage> body_image(double, const BodyMotion&, int, double) const {
     return std::nullopt;
   }
+  // The same of a place outside the hole, at psi radians from R (seen_place).
+  virtual std::optional<SeenPlace> place(double, double, double) const { return std::nullopt; }
 
   // Finds where rays meet a plane through the hole.  Nothing is returned where that is not known.
   virtual std::unique_ptr<const PlaneRays> plane(const PlaneRings&, double) const {

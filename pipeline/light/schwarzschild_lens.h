@@ -17,6 +17,10 @@ class SchwarzschildLens : public SphericalLens {
   std::optional<GasView> gas_view() const override {
     return GasView{{Schwarzschild{}, optics().at, optics().tetrad}, own_edge()};
   }
+  std::optional<SeenPlace> place(double null_time, double r, double psi) const override {
+    return seen_place(PlaceView{optics().at, is_outgoing(optics().tetrad), false}, null_time, r,
+                      psi);
+  }
   std::unique_ptr<const PlaneRays> plane(const PlaneRings& rings, double null_time) const override {
     return std::make_unique<PlaneRays>(PlaneView{Schwarzschild{}, optics().at, optics().tetrad},
                                        null_time, rings);

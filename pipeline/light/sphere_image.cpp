@@ -65,21 +65,41 @@ class Sphere {
     return angle_ + image_.angle_per_psi * (psi - image_.psi);
   }
   double half(double azimuth) const {
-    const double beside = from_axis_ * (on_axis_ * std::sin(azimuth) + image_.swing.dot(beside_)) /
-                          emitted(e(azimuth));
-    return image_.angle_per_length *
-           std::sqrt(std::max(0.0, (radius_ - beside) * (radius_ + beside)));
+    const double off = beside(azimuth);
+    return image_.angle_per_length * std::sqrt(std::max(0.0, (radius_ - off) * (radius_ + off)));
   }
 
-  SkyImage piece(double azimuth, double angle, double solid_angle) const {
-    const V3d across = e(azimuth);
-    return {
-        {across * std::sin(angle) - V3d(std::cos(angle), 0, 0)}, 1 / emitted(across), solid_angle};
+  V3d direction(double azimuth, double angle) const {
+    return e(azimuth) * std::sin(angle) - V3d(std::cos(angle), 0, 0);
+  }
+  // Returns the part of a chord between two shares of its half from its middle.
+  SpherePiece piece(double azimuth, double from, double to) const {
+    const V3d across = e(azimuth), towards = leaving_in(image_, across);
+    // The disc is seen along b1, and the plane of the chord is at right angles to m.
+    V3d m = contracted(V3d(1, 0, 0).cross(across));
+    m = (m - towards * m.dot(towards)).normalized();
+    const double h = beside(azimuth) / radius_, c = std::sqrt(std::max(0.0, (1 - h) * (1 + h))),
+                 s = (from + to) / 2, up = std::sqrt((1 - s) * (1 + s));
+    const auto area = [](double x) {
+      return (x * std::sqrt((1 - x) * (1 + x)) + std::asin(x)) / 2;
+    };
+    return {{{direction(azimuth, middle(azimuth) + half(azimuth) * s)}, 1 / emitted(across), 0},
+            c * (area(to) - area(from)) / (to - from),
+            m * h + (towards * up + m.cross(towards) * s) * c};
   }
 
  private:
   V3d e(double azimuth) const { return across_ * std::cos(azimuth) + beside_ * std::sin(azimuth); }
   double emitted(const V3d& e) const { return on_axis_ + image_.swing.dot(e); }
+  double beside(double azimuth) const {  // of the chord, from the middle of the disc
+    const double off = from_axis_ * (on_axis_ * std::sin(azimuth) + image_.swing.dot(beside_)) /
+                       emitted(e(azimuth));
+    return std::clamp(off, -radius_, radius_);
+  }
+  V3d contracted(const V3d& v) const {
+    const double gamma = std::hypot(1, image_.celerity.length());
+    return v - image_.celerity * (image_.celerity.dot(v) / (gamma * (gamma + 1)));
+  }
 
   const BodyImage& image_;
   double radius_;
@@ -92,14 +112,6 @@ class Sphere {
   double widest_;        // half of the azimuths that the image covers
 };
 
-// Returns the integral of |sin x| up to x, between -pi and 2 pi.
-double area_up_to(double x) {
-  const double half = std::sin(x / 2);
-  if (x < 0) return -2 * half * half;
-  if (x > pi) return 4 - 2 * half * half;
-  return 2 * half * half;
-}
-
 int count_of(double length, double spacing, int least) {
   return static_cast<int>(
       std::clamp(std::ceil(length / spacing), double(least), double(kMostPieces)));
@@ -107,33 +119,50 @@ int count_of(double length, double spacing, int least) {
 
 }  // namespace
 
+double area_up_to(double x) {
+  const double half = std::sin(x / 2);
+  if (x < 0) return -2 * half * half;
+  if (x > pi) return 4 - 2 * half * half;
+  return 2 * half * half;
+}
+
+V3d leaving_in(const BodyImage& image, const V3d& e) {
+  // The ray is turned about R from its own plane.
+  const V3d& k = image.ray;
+  const V3d axis(1, 0, 0), turned = axis * k.x + e * image.across.dot(k), &u = image.celerity;
+  const double gamma = std::hypot(1, u.length());
+  return (turned + u * (turned.dot(u) / (gamma + 1) - 1)).normalized();
+}
+
 double size_of_sphere(const BodyImage& image, double radius) {
   const Sphere sphere(image, radius);
   return 2 * std::max(sphere.half_length(), sphere.widest() * std::abs(std::sin(sphere.angle())));
 }
 
-std::vector<SkyImage> image_of_sphere(const BodyImage& image, double radius,
-                                      const std::function<double(const V3d&)>& spacing) {
+std::vector<SpherePiece> image_of_sphere(const BodyImage& image, double radius,
+                                         const std::function<double(const V3d&)>& spacing) {
   const Sphere sphere(image, radius);
   const double low = sphere.angle() - sphere.half_length(),
                high = sphere.angle() + sphere.half_length();
   const bool is_side = low < pi / 2 && high > pi / 2;
   const double girth = is_side ? 1 : std::max(std::abs(std::sin(low)), std::abs(std::sin(high)));
   const int chords = count_of(pi * sphere.widest() * girth, spacing(image.direction), kChords);
-  std::vector<SkyImage> pieces;
+  std::vector<SpherePiece> pieces;
   for (int k = 0; k < chords; ++k) {
     const auto tau = [&](double share) { return pi * (share / chords - 0.5); };
     const double width = sphere.azimuth(tau(k + 1)) - sphere.azimuth(tau(k));
     const double azimuth = sphere.azimuth(tau(k + 0.5));
     const double middle = sphere.middle(azimuth), half = sphere.half(azimuth);
-    const V3d direction = sphere.piece(azimuth, middle, 0).direction.v;
-    const int parts = count_of(2 * half, spacing(direction), 1);
+    const int parts = count_of(2 * half, spacing(sphere.direction(azimuth, middle)), 1);
     for (int j = 0; j < parts; ++j) {
-      const auto angle = [&](double share) {
-        return std::clamp(middle + half * (2 * share / parts - 1), -pi, 2 * pi);
+      const double from = 2.0 * j / parts - 1, to = 2.0 * (j + 1) / parts - 1;
+      const auto area = [&](double share) {
+        return area_up_to(std::clamp(middle + half * share, -pi, 2 * pi));
       };
-      const double solid_angle = width * (area_up_to(angle(j + 1)) - area_up_to(angle(j)));
-      if (solid_angle > 0) pieces.push_back(sphere.piece(azimuth, angle(j + 0.5), solid_angle));
+      const double solid_angle = width * (area(to) - area(from));
+      if (!(solid_angle > 0)) continue;
+      pieces.push_back(sphere.piece(azimuth, from, to));
+      pieces.back().at.amplification = solid_angle;
     }
   }
   return pieces;

@@ -18,13 +18,27 @@ namespace domefall {
 // Returns the longer of the sizes of the image along and across its plane, in radians.
 double size_of_sphere(const BodyImage& image, double radius);
 
-// Returns the image of one order of a sphere of this radius (M, > 0).  Each piece has its solid
-// angle, in the tetrad, in place of the amplification, and its own frequency ratio.  There are at
+// A SpherePiece is a piece of the image, which has its solid angle in the tetrad in place of the
+// amplification, and its own frequency ratio.
+struct SpherePiece {
+  SkyImage at;
+  double cosine;  // of the angle at which its light left the surface
+  V3d place;      // on the sphere: unit, along the axes of the tetrad, in the body's own frame
+};
+
+// Returns the direction in which light left the body, in its own frame, that came in the plane of R
+// and e.
+V3d leaving_in(const BodyImage& image, const V3d& e);
+
+// Returns the integral of |sin x| up to x, between -pi and 2 pi.
+double area_up_to(double x);
+
+// Returns the image of one order of a sphere of this radius (M, > 0).  There are at
 // most 4096 chords, and 4096 pieces of one.  Otherwise pieces are no longer than spacing(direction)
 // in the middle of the image and of the chord.  The two orders that meet in a ring have half of it
 // each.  To first order, angles err by a part of about the radius over the distance to the observer
 // or to the hole, whichever is nearer.
-std::vector<SkyImage> image_of_sphere(const BodyImage& image, double radius,
-                                      const std::function<double(const V3d&)>& spacing);
+std::vector<SpherePiece> image_of_sphere(const BodyImage& image, double radius,
+                                         const std::function<double(const V3d&)>& spacing);
 
 }  // namespace domefall

@@ -5,18 +5,26 @@
 #include <numbers>
 
 #include "pipeline/light/aberration.h"
-#include "pipeline/light/sphere_image.h"
+#include "pipeline/light/sphere_surface.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/scene/star_light.h"
 
 namespace domefall {
 namespace {
 
-// Says whether the observer is outside a body of that radius, which then has an angular radius
-// below 1 radian.  The size within the ray's plane decides, since the lens stretches an image
+// Says whether the observer is outside a body of that radius to first order, where it has an angular
+// radius below 1 radian.  The size within the ray's plane decides, since the lens stretches an image
 // behind the hole about the axis only.
 bool is_outside(const BodyImage& image, double radius) {
   return image.angle_per_length * radius < 1;
+}
+
+// A sphere is darker towards its limb by the linear law of V for the Sun, I = 1 - u (1 - mu) with
+// u = 0.6 (Allen's Astrophysical Quantities, 4th ed., sec. 14.7, has 0.60 at 550 nm).  Over a disc
+// the mean of mu is 2/3.
+double limb_darkening(double cosine) {
+  constexpr double kU = 0.6;
+  return (1 - kU * (1 - cosine)) / (1 - kU / 3);
 }
 
 }  // namespace
@@ -55,13 +63,22 @@ int BodySight::first_order(const Body& body) const {
 
 bool BodySight::is_too_near(const Body& body) const {
   const auto direct = traced(body, 0);
-  return direct && !is_outside(*direct, radius_of(body));
+  if (!direct) return false;
+  if (!is_traced()) return !is_outside(*direct, radius_of(body));
+  const Spacetime& spacetime = observer_.spacetime;
+  const bool outgoing = is_outgoing(observer_.tetrad);
+  const double v = observer_.null_time + (outgoing ? 2 * spacetime.tortoise(observer_.r) : 0);
+  return is_within_sphere(spacetime, observer_.r, v,
+                          motion_of(spacetime, body, observer_.sky_from_tetrad),
+                          direct->proper_time, radius_of(body));
 }
+
+bool BodySight::is_traced() const { return !observer_.spacetime.is<Wormhole>(); }
 
 std::optional<BodySight::Image> BodySight::image(const Body& body, int order,
                                                  const std::optional<double>& emitted) const {
   const auto image = traced(body, order, emitted);
-  if (!image || !is_outside(*image, radius_of(body))) return std::nullopt;
+  if (!image || !(is_traced() || is_outside(*image, radius_of(body)))) return std::nullopt;
   // At kBodyMagnitudeDistance an area has the solid angle 1/distance^2 of itself.
   const double light =
       image->solid_angle_per_area * kBodyMagnitudeDistance * kBodyMagnitudeDistance;
@@ -79,10 +96,33 @@ std::vector<SkyImage> BodySight::pieces(const Body& body, const Image& image, do
   if (effects_.amplification == Amplification::kNone ||
       size_of_sphere(image.traced, radius) <= spacing(image.at.direction.v))
     return {};
-  std::vector<SkyImage> pieces = image_of_sphere(image.traced, radius, spacing);
+  std::vector<SkyImage> pieces;
   // The pieces have their solid angles, which become amplifications of the whole disc of the star.
-  for (SkyImage& piece : pieces) piece.amplification /= std::numbers::pi * whole * whole;
+  for (const SpherePiece& piece : sphere(body, image.traced, sigma, spacing)) {
+    pieces.push_back(piece.at);
+    pieces.back().amplification *=
+        limb_darkening(piece.cosine) / (std::numbers::pi * whole * whole);
+  }
   return pieces;
+}
+
+// To first order, angles err by a part of about the size over the distance from the observer or from
+// the hole.
+std::vector<SpherePiece> BodySight::sphere(const Body& body, const BodyImage& image, double sigma,
+                                           const std::function<double(const V3d&)>& spacing) const {
+  constexpr double kError = 0.1 / 0.9;  // in sigma, which is 0.9 pixels at least
+  const double radius = radius_of(body), half = image.angle_per_length * radius;
+  if (is_traced() && half * (half + radius / image.r) > kError * sigma) {
+    const BodyMotion motion = motion_of(observer_.spacetime, body, observer_.sky_from_tetrad);
+    const auto place = [&](double r, double psi) {
+      return lens_->place(observer_.null_time, r, psi);
+    };
+    if (auto pieces = traced_sphere({place, observer_.spacetime, observer_.r}, motion, image, radius,
+                                    spacing))
+      return std::move(*pieces);
+  }
+  if (!is_outside(image, radius)) return {};
+  return image_of_sphere(image, radius, spacing);
 }
 
 BodySight::Seen BodySight::seen(const SkyImage& image) const {

@@ -2,12 +2,14 @@
 // questions about single images.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "pipeline/light/body_image.h"
 #include "pipeline/light/lens.h"
+#include "pipeline/light/sphere_image.h"
 #include "pipeline/render/scene/scene_stars.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/viewer.h"
@@ -72,6 +74,10 @@ class BodySight {
  private:
   std::optional<BodyImage> traced(const Body& body, int order,
                                   const std::optional<double>& emitted = {}) const;
+  // Says whether large spheres are traced place by place.
+  bool is_traced() const;
+  std::vector<SpherePiece> sphere(const Body& body, const BodyImage& image, double sigma,
+                                  const std::function<double(const V3d&)>& spacing) const;
 
   const Effects& effects_;
   const ObserverState& observer_;

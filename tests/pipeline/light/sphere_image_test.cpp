@@ -18,15 +18,15 @@ BodyMotion at_rest(double r, double psi) {
   return resting_body(r, V3d(std::cos(psi), std::sin(psi), 0));
 }
 
-double light_of(const std::vector<SkyImage>& pieces) {
+double light_of(const std::vector<SpherePiece>& pieces) {
   double sum = 0;
-  for (const SkyImage& piece : pieces) sum += piece.amplification;
+  for (const SpherePiece& piece : pieces) sum += piece.at.amplification;
   return sum;
 }
 
 double angle_from_hole(const V3d& d) { return std::atan2(std::hypot(d.y, d.z), -d.x); }
 
-std::vector<SkyImage> in_fine_pieces(const BodyImage& image, double radius) {
+std::vector<SpherePiece> in_fine_pieces(const BodyImage& image, double radius) {
   const double size = size_of_sphere(image, radius);
   return image_of_sphere(image, radius, [size](const V3d&) { return size / 100; });
 }
@@ -99,10 +99,10 @@ TEST(SphereImage, BehindTheHoleIsARingWithTheLightOfAllItsPoints) {
     for (const int order : {0, 1}) {
       const auto image = image_of_body(view, 0, at_rest(kR, pi - share * kRadius / kR), order, 0.1);
       ASSERT_TRUE(image);
-      const std::vector<SkyImage> pieces = in_fine_pieces(*image, kRadius);
+      const std::vector<SpherePiece> pieces = in_fine_pieces(*image, kRadius);
       light += light_of(pieces);
-      for (const SkyImage& piece : pieces)
-        EXPECT_NEAR(angle_from_hole(piece.direction.v), angle_from_hole(image->direction), 1e-3);
+      for (const SpherePiece& piece : pieces)
+        EXPECT_NEAR(angle_from_hole(piece.at.direction.v), angle_from_hole(image->direction), 1e-3);
     }
     EXPECT_NEAR(light / (times_distance * kRadius * expected), 1, 5e-3) << share;
   }
@@ -115,10 +115,10 @@ TEST(SphereImage, InFrontIsRound) {
     const PlaceView view{10, false, false};
     const auto image = image_of_body(view, 0, at_rest(20, psi), 0, kRadius);
     ASSERT_TRUE(image);
-    const std::vector<SkyImage> pieces = in_fine_pieces(*image, kRadius);
+    const std::vector<SpherePiece> pieces = in_fine_pieces(*image, kRadius);
     EXPECT_NEAR(light_of(pieces) / (image->solid_angle_per_area * pi * kRadius * kRadius), 1, 3e-3);
-    for (const SkyImage& piece : pieces)
-      EXPECT_LT((piece.direction.v - image->direction).length(),
+    for (const SpherePiece& piece : pieces)
+      EXPECT_LT((piece.at.direction.v - image->direction).length(),
                 kRadius * std::sqrt(image->solid_angle_per_area) * 1.01);
   }
 }
