@@ -167,14 +167,15 @@ void BodyTrails::divide(Trail& trail, const Node& a, const Node& b, int depth) {
 
 // A node whose camera stays where it is has its place in the tetrad in common with the instant's.
 void BodyTrails::add_piece(Trail& trail, const Node& node, double share) const {
-  std::vector<SkyImage> pieces =
-      node.sight->pieces(trail.body, *node.image, scene_.point_spread.least());
-  if (pieces.empty()) pieces.push_back(node.image->at);
-  for (const SkyImage& piece : pieces) {
-    SkyImage moved =
-        trail.window.camera == CameraMotion::kMoves ? node.sight->moved_to(now_, piece) : piece;
+  std::vector<BodySight::Piece> pieces =
+      node.sight->pieces(trail.body, *node.image, scene_.point_spread.least(), true);
+  if (pieces.empty()) pieces.push_back({node.image->at});
+  for (const BodySight::Piece& piece : pieces) {
+    SkyImage moved = trail.window.camera == CameraMotion::kMoves
+                         ? node.sight->moved_to(now_, piece.at)
+                         : piece.at;
     moved.amplification *= share;
-    trail.pieces.push_back({moved, node.image->traced.psi});
+    trail.pieces.push_back({moved, node.image->traced.psi, piece.tint});
   }
 }
 

@@ -31,6 +31,7 @@ class BodyTrails {
   struct Piece {
     SkyImage image;
     double psi;  // radians that its light has swept
+    WorkingRgb tint{1, 1, 1};
   };
   // Returns the pieces of the trail of one order, or nothing where the body is seen at the instant
   // alone.  `image` is the image at the instant.  The amplifications of all pieces together are the

@@ -23,13 +23,19 @@ bool append_body(BodyTrails& trails, const Body& body, int order, const BodySigh
     return piece;
   };
   std::vector<SkyImage> left;
-  for (const BodyTrails::Piece& piece : trails.trail(body, order, image))
+  std::vector<WorkingRgb> tints;
+  for (const BodyTrails::Piece& piece : trails.trail(body, order, image)) {
     left.push_back(before_disc(piece.image, piece.psi));
-  if (!left.empty()) return finder.append_trail(star, left, images);
-  for (const SkyImage& piece : trails.sight().pieces(body, image, scene.point_spread.least()))
-    left.push_back(before_disc(piece, image.traced.psi));
+    tints.push_back(piece.tint);
+  }
+  if (!left.empty()) return finder.append_trail(star, left, images, tints);
+  for (const BodySight::Piece& piece :
+       trails.sight().pieces(body, image, scene.point_spread.least())) {
+    left.push_back(before_disc(piece.at, image.traced.psi));
+    tints.push_back(piece.tint);
+  }
   return left.empty() ? finder.append_image(star, before_disc(image.at, image.traced.psi), images)
-                      : finder.append_pieces(star, left, images);
+                      : finder.append_pieces(star, left, images, tints);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 
 // The versions are raised with every change that alters a pixel, so that older frames are made
 // again.  That of bodies counts for shows with bodies only.
-constexpr int kPixelVersion = 10, kBodiesVersion = 3;
+constexpr int kPixelVersion = 10, kBodiesVersion = 4;
 
 // Adds a law.  Settings that came after the first version are added only where they are in use, so
 // that other shows keep their keys.
@@ -56,6 +56,20 @@ void FrameKeys::add_background(Digest& digest, const SkyBackground& background) 
     if (panorama->black) digest.add("black").add(*panorama->black);
   }
   if (const auto* rings = std::get_if<RingsSky>(&background)) digest.add(rings->period);
+}
+
+void FrameKeys::add_surface(Digest& digest, const Body& body) {
+  if (!body.texture.empty()) {
+    stamp(body.texture);
+    digest.add("texture").add(sky_digest(body.texture));
+  }
+  if (!body.lit_from) return;
+  digest.add("lit").add(static_cast<int>(body.lit_from->index()));
+  if (const auto* place = std::get_if<SkyDirection>(&*body.lit_from))
+    for (const double x : {place->v.x, place->v.y, place->v.z}) digest.add(rounded_for_key(x));
+  if (const auto* lamp = std::get_if<std::shared_ptr<const Body>>(&*body.lit_from))
+    digest.add(static_cast<double>(std::ranges::find(show_.bodies, (*lamp)->name, &Body::name) -
+                                   show_.bodies.begin()));
 }
 
 void FrameKeys::add_sky(Digest& digest, const RegionSky& sky) {
@@ -121,6 +135,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
          {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
           body.temperature, body.magnitude, body.radius})
       common.add(x);
+    add_surface(common, body);
   }
   // A show that changes from halves to floats, or back, makes all of its frames again.
   if (RenderedFrame::keeps_floats(show)) common.add("float");

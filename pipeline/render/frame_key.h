@@ -43,6 +43,7 @@ class FrameKeys {
  private:
   void stamp(const std::filesystem::path& file);
   void add_background(Digest& digest, const SkyBackground& background);
+  void add_surface(Digest& digest, const Body& body);
   void add_sky(Digest& digest, const RegionSky& sky);
   void add_segments();
   // Returns the key of what is seen while the shutter is open, without titles and overlays.

@@ -106,15 +106,15 @@ std::vector<BodyAtPixel> PixelProbe::bodies() const {
       if (!image) break;
       const BodySight::Seen seen = sight.seen(image->at);
       const double left = scene_->left_before(seen.direction, image->traced.psi, width_);
-      const double magnitude = seen_magnitude(show_.effects, body.magnitude, body.temperature,
-                                              left * seen.brightening, seen.frequency_ratio);
+      const auto pieces = sight.pieces(body, *image, sigma);
+      const double magnitude = sight.seen_v(body, image->at, pieces) - 2.5 * std::log10(left);
       faint = magnitude <= kFaintestSeen ? 0 : faint + 1;
       const auto at = pixel_of(state_.projection, seen.direction);
       if (faint > 0 || !at) continue;
-      const auto is_near = [&](const SkyImage& piece) {
-        return reaches(sight.seen(piece).direction);
+      const auto is_near = [&](const BodySight::Piece& piece) {
+        return reaches(sight.seen(piece.at).direction);
       };
-      if (is_near(image->at) || std::ranges::any_of(sight.pieces(body, *image, sigma), is_near))
+      if (is_near({image->at}) || std::ranges::any_of(pieces, is_near))
         found.push_back({body.name, image->traced.r, magnitude, seen.frequency_ratio, order, *at});
     }
   }

@@ -1,8 +1,11 @@
 // A Body shines on an orbit of its own about the hole.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "pipeline/light/body_image.h"
 #include "pipeline/show/placement.h"
@@ -11,6 +14,12 @@
 #include "trajectories/trajectory.h"
 
 namespace domefall {
+
+struct Body;
+// What a body is lit from that does not shine itself: a direction on the sky, another body, or what
+// is about the hole.
+struct LitFromHole {};
+using BodyLamp = std::variant<SkyDirection, std::shared_ptr<const Body>, LitFromHole>;
 
 struct Body {
   std::string name;
@@ -28,7 +37,11 @@ struct Body {
   // The magnitude is V as the body would have it at rest at a distance of kBodyMagnitudeDistance
   // without a hole.
   double magnitude = 0;
-  double radius = 0;  // of a glowing sphere, M; 0 of a point
+  double radius = 0;  // of a sphere, M; 0 of a point
+  // An equirectangular image of the surface, whose north is `normal` and whose middle is at `node`;
+  // empty for none.
+  std::filesystem::path texture{};
+  std::optional<BodyLamp> lit_from{};
 };
 inline constexpr double kBodyMagnitudeDistance = 100;  // M
 

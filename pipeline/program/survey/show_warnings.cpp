@@ -179,8 +179,7 @@ std::vector<ShowWarning> NearBodies::warnings() const {
     if (!large.first) continue;
     ShowWarning warning = *large.first;
     warning.text = fmt::format(
-        "bodies.{} is not drawn, to frame {}: the observer is within its radius of {:.3g} M, "
-        "or next to it",
+        "bodies.{} is not drawn, to frame {}: the observer is within its radius of {:.3g} M",
         large.body->name, large.last_frame, large.radius);
     found.push_back(warning);
   }

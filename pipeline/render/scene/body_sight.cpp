@@ -7,6 +7,9 @@
 #include "pipeline/light/aberration.h"
 #include "pipeline/light/sphere_surface.h"
 #include "pipeline/render/rays/view_tracer.h"
+#include "pipeline/render/scene/body_surface.h"
+#include "pipeline/render/scene/point_spread.h"
+#include "pipeline/render/scene/seen_magnitude.h"
 #include "pipeline/render/scene/star_light.h"
 
 namespace domefall {
@@ -17,14 +20,6 @@ namespace {
 // behind the hole about the axis only.
 bool is_outside(const BodyImage& image, double radius) {
   return image.angle_per_length * radius < 1;
-}
-
-// A sphere is darker towards its limb by the linear law of V for the Sun, I = 1 - u (1 - mu) with
-// u = 0.6 (Allen's Astrophysical Quantities, 4th ed., sec. 14.7, has 0.60 at 550 nm).  Over a disc
-// the mean of mu is 2/3.
-double limb_darkening(double cosine) {
-  constexpr double kU = 0.6;
-  return (1 - kU * (1 - cosine)) / (1 - kU / 3);
 }
 
 }  // namespace
@@ -85,40 +80,55 @@ std::optional<BodySight::Image> BodySight::image(const Body& body, int order,
   return Image{{{image->direction}, image->frequency_ratio, light}, *image};
 }
 
-std::vector<SkyImage> BodySight::pieces(const Body& body, const Image& image, double sigma) const {
+std::vector<BodySight::Piece> BodySight::pieces(const Body& body, const Image& image, double sigma,
+                                                bool in_trail) const {
+  const double pixel = sigma / kLeastSigmaPixels;  // at most
   // By Poisson's sum formula a row of Gaussians, d sigma apart, ripples by 2 exp(-2 pi^2/d^2) of
   // its mean, which is 3e-4 here.
   constexpr double kSpacing = 1.5;
-  const double radius = radius_of(body), whole = radius / kBodyMagnitudeDistance;
+  const double radius = radius_of(body), whole = radius / kBodyMagnitudeDistance,
+               size = size_of_sphere(image.traced, radius);
+  const BodySurface surface(body, image.traced, observer_);
+  // A small sphere with a surface has a phase all the same.
+  constexpr double kLeastPieces = 16;
+  const double most = surface.is_even() ? HUGE_VAL : size / kLeastPieces;
   const auto spacing = [&](const V3d& direction) {
-    return kSpacing * sigma * to_observer(viewer_.celerity, direction).frequency_ratio;
+    return std::min(most,
+                    kSpacing * sigma * to_observer(viewer_.celerity, direction).frequency_ratio);
   };
-  if (effects_.amplification == Amplification::kNone ||
-      size_of_sphere(image.traced, radius) <= spacing(image.at.direction.v))
+  if (effects_.amplification == Amplification::kNone || size <= spacing(image.at.direction.v))
     return {};
-  std::vector<SkyImage> pieces;
+  std::vector<Piece> pieces;
   // The pieces have their solid angles, which become amplifications of the whole disc of the star.
-  for (const SpherePiece& piece : sphere(body, image.traced, sigma, spacing)) {
-    pieces.push_back(piece.at);
-    pieces.back().amplification *=
-        limb_darkening(piece.cosine) / (std::numbers::pi * whole * whole);
+  for (const SpherePiece& piece :
+       sphere(body, image.traced, (in_trail ? 1 : 0.1) * pixel, spacing)) {
+    const double light = surface.light(piece);
+    if (!(light > 0)) continue;
+    pieces.push_back({piece.at, surface.tint(piece)});
+    pieces.back().at.amplification *= light / (std::numbers::pi * whole * whole);
   }
+  // A dark side is drawn by one piece without light.
+  if (pieces.empty() && !surface.is_even()) pieces.push_back({{image.at.direction, 1, 0}});
   return pieces;
 }
 
 // To first order, angles err by a part of about the size over the distance from the observer or from
 // the hole.
-std::vector<SpherePiece> BodySight::sphere(const Body& body, const BodyImage& image, double sigma,
+std::vector<SpherePiece> BodySight::sphere(const Body& body, const BodyImage& image, double error,
                                            const std::function<double(const V3d&)>& spacing) const {
-  constexpr double kError = 0.1 / 0.9;  // in sigma, which is 0.9 pixels at least
   const double radius = radius_of(body), half = image.angle_per_length * radius;
-  if (is_traced() && half * (half + radius / image.r) > kError * sigma) {
+  const double part = radius / image.r;
+  // Two orders that meet in a ring are drawn in one way.
+  const bool in_ring = image.psi > 1 && std::abs(std::sin(image.psi)) < 2 * part;
+  const double off =
+      in_ring ? std::min(half, size_of_sphere(image, radius) * part * part) : half * (half + part);
+  if (is_traced() && off > error) {
     const BodyMotion motion = motion_of(observer_.spacetime, body, observer_.sky_from_tetrad);
     const auto place = [&](double r, double psi) {
       return lens_->place(observer_.null_time, r, psi);
     };
-    if (auto pieces = traced_sphere({place, observer_.spacetime, observer_.r}, motion, image, radius,
-                                    spacing))
+    if (auto pieces = traced_sphere({place, observer_.spacetime, observer_.r}, motion, image,
+                                    radius, spacing))
       return std::move(*pieces);
   }
   if (!is_outside(image, radius)) return {};
@@ -132,6 +142,20 @@ BodySight::Seen BodySight::seen(const SkyImage& image) const {
   return {{apply_transposed(observer_.tetrad_from_camera, at.direction)},
           received_flux(effects_, 1, image.amplification, at.frequency_ratio, g),
           g};
+}
+
+double BodySight::seen_v(const Body& body, const SkyImage& at,
+                         const std::vector<Piece>& pieces) const {
+  const auto v = [&](const SkyImage& image, double tint) {
+    const Seen part = seen(image);
+    return seen_magnitude(effects_, body.magnitude, body.temperature, part.brightening * tint,
+                          part.frequency_ratio);
+  };
+  if (pieces.empty()) return v(at, 1);
+  double light = 0;
+  for (const Piece& piece : pieces)
+    light += std::pow(10, -0.4 * v(piece.at, luminance(piece.tint)));
+  return -2.5 * std::log10(light);
 }
 
 // A boost divides solid angles by doppler^2, which the amplification in the other tetrad undoes.

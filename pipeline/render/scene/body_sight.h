@@ -13,6 +13,7 @@
 #include "pipeline/render/scene/scene_stars.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/viewer.h"
+#include "pipeline/sources/colour/colour_space.h"
 
 namespace domefall {
 
@@ -53,7 +54,13 @@ class BodySight {
   // Returns the pieces in which an image is drawn that is too large for one blob of width sigma
   // (radians, for the camera).  Such an image is that of a sphere, an arc or a part of a ring.
   // There are no pieces where one blob is enough, nor where images are not amplified.
-  std::vector<SkyImage> pieces(const Body& body, const Image& image, double sigma) const;
+  struct Piece {
+    SkyImage at;
+    WorkingRgb tint{1, 1, 1};
+  };
+  // They are right to 0.1 pixel, or to one in a trail, which is blurred.
+  std::vector<Piece> pieces(const Body& body, const Image& image, double sigma,
+                            bool in_trail = false) const;
 
   // A Seen describes an image as the camera receives it.  `brightening` is the bolometric flux, as
   // the renderer draws it, over that of star_of(body).  The frequency ratio is the one that is
@@ -63,6 +70,9 @@ class BodySight {
     double brightening, frequency_ratio;
   };
   Seen seen(const SkyImage& image) const;
+
+  // Returns the V of an image as it is drawn.
+  double seen_v(const Body& body, const SkyImage& at, const std::vector<Piece>& pieces) const;
 
   // Returns the image that looks to the observer of `other` as this one does to this observer.
   SkyImage moved_to(const BodySight& other, const SkyImage& image) const;
@@ -76,7 +86,7 @@ class BodySight {
                                   const std::optional<double>& emitted = {}) const;
   // Says whether large spheres are traced place by place.
   bool is_traced() const;
-  std::vector<SpherePiece> sphere(const Body& body, const BodyImage& image, double sigma,
+  std::vector<SpherePiece> sphere(const Body& body, const BodyImage& image, double error,
                                   const std::function<double(const V3d&)>& spacing) const;
 
   const Effects& effects_;

@@ -169,8 +169,8 @@ SkyImage StarImageFinder::image(const SceneStar& star, const V3d& source, int or
 
 // Returns the image as the camera receives it.  By [Riazuelo] sec. sec_stars_eff its temperature is
 // T/(1+z).
-StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
-                                                   const SkyImage& at) const {
+StarImageFinder::Received StarImageFinder::receive(const SceneStar& star, const SkyImage& at,
+                                                   const WorkingRgb& tint) const {
   const AberratedLight seen = from_tetrad_.to_rest(at.direction.v);
   const double doppler = seen.frequency_ratio;
   double g = at.frequency_ratio * doppler;
@@ -188,9 +188,10 @@ StarImageFinder::Received StarImageFinder::receive(const SceneStar& star,
   const auto channel = [&](float per_unit) {
     return static_cast<float>(std::min(per_unit * pixel_flux, kSaturated));
   };
-  received.image = {static_cast<float>(pixel->i - 1),
-                    static_cast<float>(pixel->j - 1),
-                    {channel(colour.r), channel(colour.g), channel(colour.b)}};
+  received.image = {
+      static_cast<float>(pixel->i - 1),
+      static_cast<float>(pixel->j - 1),
+      {channel(colour.r * tint.r), channel(colour.g * tint.g), channel(colour.b * tint.b)}};
   return received;
 }
 
@@ -262,11 +263,13 @@ bool StarImageFinder::append_trail(const SceneStar& star, const StarTrail& trail
 }
 
 bool StarImageFinder::append_trail(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                                   std::vector<StarImage>& images) const {
+                                   std::vector<StarImage>& images,
+                                   const std::vector<WorkingRgb>& tints) const {
   const std::size_t before = images.size();
   double light = 0;
-  for (const SkyImage& piece : pieces) {
-    const Received received = receive(star, piece);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Received received =
+        tints.empty() ? receive(star, pieces[k]) : receive(star, pieces[k], tints[k]);
     light += received.peak;
     if (received.placed) images.push_back(received.image);
   }
@@ -276,11 +279,13 @@ bool StarImageFinder::append_trail(const SceneStar& star, const std::vector<SkyI
 }
 
 bool StarImageFinder::append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                                    std::vector<StarImage>& images) const {
+                                    std::vector<StarImage>& images,
+                                    const std::vector<WorkingRgb>& tints) const {
   const std::size_t before = images.size();
   double peak = 0;
-  for (const SkyImage& piece : pieces) {
-    const Received received = receive(star, piece);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Received received =
+        tints.empty() ? receive(star, pieces[k]) : receive(star, pieces[k], tints[k]);
     peak = std::max(peak, received.peak);
     if (received.placed) images.push_back(received.image);
   }

@@ -43,13 +43,16 @@ class StarImageFinder {
                     std::vector<StarImage>& images) const;
 
   // Does the same with an image in pieces that lie so close together that they are seen as one.
+  // Tints are factors to the light of each, or none.
   bool append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                     std::vector<StarImage>& images) const;
+                     std::vector<StarImage>& images,
+                     const std::vector<WorkingRgb>& tints = {}) const;
 
   // Does the same with the pieces of a trail, which is bright enough if all of its light in one blob
   // would be.
   bool append_trail(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                    std::vector<StarImage>& images) const;
+                    std::vector<StarImage>& images,
+                    const std::vector<WorkingRgb>& tints = {}) const;
 
   // Returns how many stars, counted from the first, may be bright enough by their magnitudes and
   // fluxes.
@@ -89,7 +92,8 @@ class StarImageFinder {
   double least_sigma_at(const V3d& direction) const;
   void append_orders(const SceneStar& star, const V3d& source, int first, int end,
                      std::vector<StarImage>& images) const;
-  Received receive(const SceneStar& star, const SkyImage& at) const;
+  Received receive(const SceneStar& star, const SkyImage& at,
+                   const WorkingRgb& tint = {1, 1, 1}) const;
   double radius_of(const SceneStar& star) const;
   double least_sine(const SceneStar& star, const V3d& source,
                     const std::optional<AxisPassage>& passage) const;

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
@@ -232,6 +235,29 @@ Body read_body(const std::string& name, const Item& item, const Show& to,
   return body;
 }
 
+// Reads what the surface of a body looks like.  The other bodies may follow this one.
+void read_surface(const Section& s, const std::map<std::string, Item>& names, Lookup& lookup,
+                  Body& body) {
+  const Item* texture = s.find("texture");
+  const Item* lamp = s.find("lit_from");
+  for (const Item* item : {texture, lamp})
+    if (item && !(body.radius > 0)) item->fail("is for a sphere, which has a radius");
+  if (texture)
+    if (const auto name = read_text(*texture))
+      if (const auto file = lookup.file(*texture, *name)) body.texture = *file;
+  if (!lamp) return;
+  const auto name = lamp->node.IsScalar() ? read_text(*lamp) : std::nullopt;
+  static constexpr std::array<std::string_view, 1> kWords{"disc"};
+  if (name == body.name)
+    lamp->fail("must be another body");
+  else if (name && names.contains(*name))
+    body.lit_from = std::make_shared<const Body>(Body{*name});
+  else if (name == kWords[0])
+    body.lit_from = LitFromHole{};
+  else if (const auto place = read_sky_place(*lamp, lookup, kWords))
+    body.lit_from = *place;
+}
+
 }  // namespace
 
 std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& lookup) {
@@ -243,8 +269,17 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
     list->fail("must be a map of names and bodies, e.g. {beacon: {r: 10}}, got " + kind_of(*list));
     return bodies;
   }
-  for (const auto& [name, item] : entries_of(*list))
+  std::map<std::string, Item> names;
+  for (const auto& [name, item] : entries_of(*list)) names.emplace(name, item);
+  for (const auto& [name, item] : entries_of(*list)) {
     bodies.push_back(read_body(name, item, to, to.begins_year, lookup));
+    read_surface(Section(item, {"bodies", "body.light"}), names, lookup, bodies.back());
+  }
+  const std::vector<Body> all = bodies;
+  for (Body& body : bodies)
+    if (auto* lamp =
+            body.lit_from ? std::get_if<std::shared_ptr<const Body>>(&*body.lit_from) : nullptr)
+      *lamp = std::make_shared<const Body>(*std::ranges::find(all, (*lamp)->name, &Body::name));
   return bodies;
 }
 

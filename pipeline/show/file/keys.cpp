@@ -289,7 +289,9 @@ constexpr std::string_view kRows = R"(
 | `azimuth_deg` | -3600 to 3600: its azimuth from the node where it begins: at the instant that light falling straight in shares with the show's start (its v = 0), or at `begins_m` | [0] |
 | `temperature_k` | 100 to 1e9: colour of its light, a blackbody's | [6000] |
 | `absolute_magnitude` | -100 to 100 magnitudes: instead, that at 10 pc, as catalogues have it | |
-| `radius` | above 0, at most 1e6 M: of a glowing sphere. It shares the light of the `magnitude` evenly over its disc. The sphere must stay clear of the horizon on its orbit; if the body falls in, where its fall begins | [a point] |
+| `radius` | above 0, at most 1e6 M: of a glowing sphere. Its disc has the light of the `magnitude` and is darker towards the limb. The sphere must stay clear of the horizon on its orbit; if the body falls in, where its fall begins | [a point] |
+| `texture` | an equirectangular image of its surface, as any that [sky](#sky) takes: north is that of its orbit, the middle column faces the node, east is on the right. Its mean is as bright as a sphere without it, and white has the colour of `temperature_k` | [none] |
+| `lit_from` | what lights it, if it does not shine itself: a place on the sky, `{ra_deg: X, dec_deg: Y}` or a name, the name of another body, or `disc`, for light from about the hole; its `magnitude` is then that of its full phase | [it shines itself] |
 ## body.light
 | `magnitude` | -100 to 100 magnitudes: visual magnitude that it would have at a distance of 100 M, at rest and without the hole | [0] |
 ## elements

@@ -153,14 +153,14 @@ TEST(Bodies, ThatMoveBlurWhereTheSkyStands) {
   EXPECT_GT(width(), 1.5 * still);
 }
 
-// The area (sr) of the pixels that are brighter than half of the brightest.
+// The area (sr) of the pixels that are brighter than a third of the brightest, as the blurred limb is.
 double bright_area(const FloatImage& frame, const Projection& projection) {
   float most = 0;
   for (const float value : frame.pixels) most = std::max(most, value);
   int count = 0;
   for (int row = 0; row < frame.height; ++row)
     for (int column = 0; column < frame.width; ++column)
-      if (frame.row(row)[3 * column] > most / 2) ++count;
+      if (frame.row(row)[3 * column] > most / 3) ++count;
   const double side = largest_pixel_angle(projection);
   return count * side * side;
 }

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "pipeline/render/sphere_blur.h"
-#include "tests/pipeline/render/scenes.h"
+#include "trajectories/degree.h"
 
 namespace domefall {
 namespace {

@@ -49,6 +49,20 @@ TEST_F(Bodies, RiseAtTheirNodeByTheirInclination) {
   expect_near(show.bodies[1].normal.v, column(axes, 1));  // it goes the other way
 }
 
+TEST_F(Bodies, AreLitFromThePlaceThatTheyName) {
+  const Show show = with(
+      "bodies:\n  moon: {r: 30, radius: 1, lit_from: sun}\n  sun: {r: 60, radius: 2}\n"
+      "  dust: {r: 90, radius: 1, lit_from: disc}\n"
+      "  rock: {r: 99, radius: 1, lit_from: {ra_deg: 0, dec_deg: 90}}\n");
+  ASSERT_EQ(show.bodies.size(), 4u);
+  const auto& lamp = std::get<std::shared_ptr<const Body>>(*show.bodies[0].lit_from);
+  EXPECT_EQ(lamp->name, "sun");
+  EXPECT_EQ(std::get<CircularOrbit>(lamp->trajectory).r, 60);
+  EXPECT_FALSE(show.bodies[1].lit_from);
+  EXPECT_TRUE(std::holds_alternative<LitFromHole>(*show.bodies[2].lit_from));
+  expect_near(std::get<SkyDirection>(*show.bodies[3].lit_from).v, V3d(0, 0, 1));
+}
+
 TEST_F(Bodies, GoTheirOwnWays) {
   const Show show = with(
       "bodies:\n  falls: {trajectory: {type: infall, rest_r: 9}, begins_m: 3, azimuth_deg: 20}\n"
@@ -174,6 +188,10 @@ TEST_F(BodyMistakes, AreToldWithTheirPlace) {
        "4:26: camera.look_at.body names no body of the show: 'b'"},
       {"bodies: {a: {r: 3}}", "3:17: bodies.a.r must exceed 3 (units of M), got 3"},
       {"bodies: {a: {r: 9, radius: 0}}", "3:28: bodies.a.radius must exceed 0 (units of M), got 0"},
+      {"bodies: {a: {r: 9, lit_from: disc}}",
+       "3:30: bodies.a.lit_from is for a sphere, which has a radius"},
+      {"bodies: {a: {r: 9, radius: 1, lit_from: a}}",
+       "3:41: bodies.a.lit_from must be another body"},
       {"bodies: [{r: 9}]",
        "3:9: bodies must be a map of names and bodies, e.g. {beacon: {r: 10}}, got a list"},
   });

@@ -1,0 +1,158 @@
+// The surfaces of bodies: limb darkening, phases and textures.
+#include "pipeline/render/scene/body_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/render/frame_key.h"
+#include "pipeline/render/scene/body_sight.h"
+#include "tests/pipeline/render/scenes.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// An observer at r, who looks at the hole, and a sphere at rest to its side.
+Show show_with_sphere(double observer, double r, double azimuth, double radius) {
+  Show show = show_of(StaticObserver{observer}, Stereographic{201, 201, 40 * kDegree});
+  show.spacetime = Schwarzschild{4e6};
+  show.timeline[0].camera.attitude = LookAtHole{};
+  show.point_spread.min_sigma = show.point_spread.max_sigma = 0.2 * kDegree;
+  show.exposure.ev = 0;
+  const FrameState state = frame_state(show, 0);
+  Body body;
+  body.trajectory = StaticObserver{r};
+  body.azimuth = azimuth;
+  body.magnitude = -15;
+  body.radius = radius;
+  body.node = {column(state.observer.sky_from_tetrad, 0)};
+  body.normal = {-column(state.observer.sky_from_tetrad, 1)};
+  show.bodies = {body};
+  return show;
+}
+
+std::vector<BodySight::Piece> pieces_of(const Show& show) {
+  const FrameState state = frame_state(show, 0);
+  const BodySight sight(state, show.effects, show.least_star_radius);
+  const auto image = sight.image(show.bodies[0], 0);
+  return sight.pieces(show.bodies[0], *image, 1e-3);
+}
+
+// The light of all pieces, over that of the body as a point.
+double light_of(const Show& show) {
+  const FrameState state = frame_state(show, 0);
+  const BodySight sight(state, show.effects, show.least_star_radius);
+  double sum = 0;
+  for (const BodySight::Piece& piece : pieces_of(show))
+    sum += piece.at.amplification * luminance(piece.tint);
+  return sum / sight.image(show.bodies[0], 0)->at.amplification;
+}
+
+TEST(BodySurface, IsDarkerTowardsTheLimbByTheSolarLaw) {
+  for (const double radius : {1.0, 30.0}) {  // to first order, and traced
+    const Show show = show_with_sphere(3000, 2000, 0.2, radius);
+    EXPECT_NEAR(light_of(show), 1, 3e-3) << radius;
+    const auto pieces = pieces_of(show);
+    double least = HUGE_VAL, most = 0;
+    const FrameState state = frame_state(show, 0);
+    const BodySight sight(state, show.effects, show.least_star_radius);
+    const auto image = sight.image(show.bodies[0], 0);
+    const BodySurface surface(show.bodies[0], image->traced, state.observer);
+    for (const double cosine : {0.0, 0.5, 1.0}) {
+      const double light = surface.light({{}, cosine, {}});
+      EXPECT_NEAR(light, (1 - 0.6 * (1 - cosine)) / 0.8, 1e-12);
+      least = std::min(least, light), most = std::max(most, light);
+    }
+    EXPECT_NEAR(least / most, 0.4, 1e-12);
+    EXPECT_GT(pieces.size(), 16u);
+  }
+}
+
+// The phase law of a sphere that scatters by Lambert's law, (sin a + (pi - a) cos a)/pi.
+TEST(BodySurface, HasThePhasesOfAPlanet) {
+  for (const double radius : {1.0, 30.0})
+    for (const double phase : {0.0, 0.7, pi / 2, 2.5}) {
+      Show show = show_with_sphere(3000, 2000, 0.2, radius);
+      const V3d body = V3d(std::cos(0.2), std::sin(0.2), 0) * 2000, view = V3d(3000, 0, 0) - body;
+      const V3d v = view.normalized(), aside(-v.y, v.x, 0);
+      const V3d from = v * std::cos(phase) + aside * std::sin(phase);
+      Body& lit = show.bodies[0];
+      const V3d node = lit.node.v, onward = lit.normal.v.cross(node);
+      lit.lit_from = SkyDirection{node * from.x + onward * from.y};
+      const double law = (std::sin(phase) + (pi - phase) * std::cos(phase)) / pi;
+      // What is nearer to the observer is seen larger.
+      EXPECT_NEAR(light_of(show), law, 5e-3 + radius / 1000) << radius << " " << phase;
+    }
+}
+
+TEST(BodySurface, HasItsTextureTheRightWayRound) {
+  // The right half, of eastern longitudes, is red and the left half is green.
+  const PanoramaFile file(64, [](int k) {
+    const bool east = k / 3 % 64 >= 32;
+    return k % 3 == 0 ? east ? 1.0f : 0.0f : k % 3 == 1 ? east ? 0.0f : 1.0f : 0.0f;
+  });
+  Show show = show_with_sphere(3000, 2000, 0.2, 30);
+  Body& body = show.bodies[0];
+  body.texture = file.path();
+  const FrameState state = frame_state(show, 0);
+  const BodySight sight(state, show.effects, show.least_star_radius);
+  const auto image = sight.image(body, 0);
+  const BodySurface surface(body, image->traced, state.observer);
+  const V3d node = apply_transposed(state.observer.sky_from_tetrad, body.node.v),
+            normal = apply_transposed(state.observer.sky_from_tetrad, body.normal.v),
+            east = normal.cross(node);
+  const SpherePiece eastern{{{}, 1, 1e-6}, 1, (node + east).normalized()},
+      western{{{}, 1, 1e-6}, 1, (node - east).normalized()};
+  EXPECT_GT(surface.tint(eastern).r, 3 * surface.tint(eastern).g);
+  EXPECT_GT(surface.tint(western).g, 2 * surface.tint(western).r);
+}
+
+// As bright as the frame has it, beside the same body as a point.
+TEST(BodySurface, IsSeenAsTheVOfItsPixels) {
+  const auto light = [](const Show& show) {
+    Renderer renderer(show, 1);
+    FloatImage frame;
+    renderer.render(frame_state(show, 0), frame);
+    double sum = 0;
+    for (std::size_t k = 0; k < frame.pixels.size(); k += 3)
+      sum += luminance({frame.pixels[k], frame.pixels[k + 1], frame.pixels[k + 2]});
+    return sum;
+  };
+  const auto seen_v = [](const Show& show) {
+    const FrameState state = frame_state(show, 0);
+    const BodySight sight(state, show.effects, show.least_star_radius);
+    double sum = 0;
+    for (int order = 0; order < 4; ++order) {
+      const auto image = sight.image(show.bodies[0], order);
+      const double v =
+          sight.seen_v(show.bodies[0], image->at, sight.pieces(show.bodies[0], *image, 5e-3));
+      sum += std::pow(10, -0.4 * v);
+    }
+    return -2.5 * std::log10(sum);
+  };
+  Show point = show_with_sphere(60, 10, 1.8, 0);
+  Show sphere = show_with_sphere(60, 10, 1.8, 3);
+  Show lit = sphere;
+  lit.bodies[0].lit_from = LitFromHole{};
+  for (const Show& show : {sphere, lit})
+    EXPECT_NEAR(seen_v(show) - seen_v(point), -2.5 * std::log10(light(show) / light(point)), 0.03);
+}
+
+TEST(BodySurface, IsInTheKeysOfFrames) {
+  const Show plain = show_with_sphere(60, 10, 1.8, 3);
+  Show textured = plain, lit = plain, from_hole = plain;
+  textured.bodies[0].texture = small_panorama();
+  lit.bodies[0].lit_from = SkyDirection{V3d(1, 0, 0)};
+  from_hole.bodies[0].lit_from = LitFromHole{};
+  const FrameState state = frame_state(plain, 0);
+  const auto key = [&](const Show& show) { return FrameKeys(show, "").scene(state); };
+  EXPECT_NE(key(plain), key(textured));
+  EXPECT_NE(key(plain), key(lit));
+  EXPECT_NE(key(lit), key(from_hole));
+}
+
+}  // namespace
+}  // namespace domefall
