@@ -222,7 +222,8 @@ TEST_F(DiscKeys, AHaloAndAJetShareTheDiscsAxis) {
 TEST_F(DiscMistakes, OfHalosAndJetsAreNamedWithTheirBounds) {
   expect_complaints_of_lines({
       {"exposure: {disc: 10}", "3:18: exposure.disc needs a disc: give the show one"},
-      {"disc: {}\nexposure: {disc: 10, ev: 1}", "4:18: exposure.disc excludes ev; give one of them"},
+      {"disc: {}\nexposure: {disc: 10, ev: 1}",
+       "4:18: exposure.disc excludes ev; give one of them"},
       {"halo: {height: 3}", "3:16: halo.height must be at most 2, got 3"},
       {"halo: {t_k: 20}", "3:13: halo.t_k must be at least 500 (kelvin), got 20"},
       {"jet: {lorentz_factor: 0.5}", "3:23: jet.lorentz_factor must be at least 1, got 0.5"},
