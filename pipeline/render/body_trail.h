@@ -30,7 +30,8 @@ class BodyTrails {
   // A Piece is a part of a trail in the tetrad of the scene's instant.
   struct Piece {
     SkyImage image;
-    double psi;  // radians that its light has swept
+    double psi;              // radians that its light has swept
+    double solid_angle = 0;  // BodySight::Piece's, as the mean over the time
     WorkingRgb tint{1, 1, 1};
   };
   // Returns the pieces of the trail of one order, or nothing where the body is seen at the instant

@@ -73,9 +73,8 @@ class BandLayers {
         pixels_(static_cast<std::size_t>(end - first) *
                 static_cast<std::size_t>(frame.picture.width)) {
     rows_.before.assign(3 * pixels_, 0);
-    rows_.left.assign(pixels_, 1);
+    for (std::vector<float>& left : rows_.left) left.clear();
     rows_.taken.fill(false);
-    rows_.hider.reset();
   }
 
   // Gives a layer the light that has come to the picture since the last call.
@@ -89,12 +88,15 @@ class BandLayers {
     std::copy_n(rgb, before.size(), before.begin());
   }
 
-  // Returns where a disc says how much of the light behind it is left.
-  float* left() { return rows_.left.data(); }
+  // Returns where a layer that hides what is behind it says how much of that is left.
+  float* left(Layer layer) {
+    std::vector<float>& left = left_of(layer);
+    left.assign(pixels_, 1);
+    return left.data();
+  }
   // As take, of a layer that leaves that part of all light behind it and hides the rest.
   void take_hiding(Layer layer, const float* rgb) {
-    rows_.hider = layer;
-    const std::vector<float>& left = rows_.left;
+    const std::vector<float>& left = left_of(layer);
     const auto dim = [&](std::vector<float>& light) {
       for (std::size_t k = 0; k < left.size(); ++k)
         for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) light[c] *= left[k];
@@ -116,8 +118,8 @@ class BandLayers {
         std::fill_n(image.light.row(row), 3 * width, T(0));
       if (image.alpha.empty()) continue;
       float* const alpha = image.alpha.data() + static_cast<std::size_t>(row) * width;
-      if (image.layer == rows_.hider)
-        for (std::size_t k = 0; k < width; ++k) alpha[k] = 1 - rows_.left[at + k];
+      if (const std::vector<float>& left = left_of(image.layer); !left.empty())
+        for (std::size_t k = 0; k < width; ++k) alpha[k] = 1 - left[at + k];
       else
         std::fill_n(alpha, width, 0.0f);
     }
@@ -129,6 +131,7 @@ class BandLayers {
     return image && !image->light.pixels.empty();
   }
   bool is_taken(Layer layer) const { return rows_.taken[static_cast<std::size_t>(layer)]; }
+  std::vector<float>& left_of(Layer layer) { return rows_.left[static_cast<std::size_t>(layer)]; }
   std::vector<float>& light_of(Layer layer) {
     rows_.taken[static_cast<std::size_t>(layer)] = true;
     return rows_.light[static_cast<std::size_t>(layer)];
@@ -219,6 +222,20 @@ class StarsEnd {
   std::vector<Block> blocks_;
 };
 
+// Hides what is behind spheres, and says what is left, if asked.  A sphere in front of another hides no
+// more than it.
+void cover_rows(const BlobLayer& covers, int band, std::size_t pixels, SplatBuffer& splats,
+                std::vector<float>& covered, float* rgb, float* left) {
+  covered.assign(3 * pixels, 0);
+  covers.draw_band(band, splats, covered.data());
+  for (std::size_t k = 0; k < pixels; ++k) {
+    if (!(covered[3 * k] > 0)) continue;
+    const float passes = 1 - std::min(covered[3 * k], 1.0f);
+    for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) rgb[c] *= passes;
+    if (left) left[k] = passes;
+  }
+}
+
 // Gives pixels to the layers in which something may be drawn, and to no others.
 template <class T>
 void prepare_layers(bool lit, const DrawnLight& drawn, LayeredFrame<T>& frame) {
@@ -240,7 +257,8 @@ void prepare_layers(bool lit, const DrawnLight& drawn, LayeredFrame<T>& frame) {
   };
   for (LayerImage<T>& image : frame.layers) {
     if (is_drawn(image.layer))
-      image.add_pixels(image.layer == Layer::kDisc);
+      image.add_pixels(image.layer == Layer::kDisc ||
+                       (image.layer == Layer::kBodies && drawn.covers));
     else
       image.remove_pixels();
   }
@@ -284,14 +302,21 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
     if (stars_end) stars_end->end_stars(rgb.data());
     if (layers) layers->take(Layer::kStars, rgb.data());
     if (drawn.disc || drawn.gas) {
-      float* const left = layers ? layers->left() : nullptr;
+      float* const left = layers ? layers->left(Layer::kDisc) : nullptr;
       if (drawn.disc) drawn.disc->draw_rows(first, end, rgb.data(), left);
       if (drawn.gas) drawn.gas->draw_rows(first, end, rgb.data(), left);
       if (layers) layers->take_hiding(Layer::kDisc, rgb.data());
     }
+    if (drawn.covers)
+      cover_rows(*drawn.covers, band, static_cast<std::size_t>((end - first) * width), splats,
+                 memory.covered.local(), rgb.data(),
+                 layers ? layers->left(Layer::kBodies) : nullptr);
     if (drawn.bodies) {
       drawn.bodies->draw_band(band, splats, rgb.data());
-      if (layers) layers->take(Layer::kBodies, rgb.data());
+      if (layers && drawn.covers)
+        layers->take_hiding(Layer::kBodies, rgb.data());
+      else if (layers)
+        layers->take(Layer::kBodies, rgb.data());
     }
     if (drawn.mattes) drawn.mattes->fill_rows(first, end, rgb.data(), splats, frame.mattes);
     for (int row = first; row < end; ++row) {

@@ -24,17 +24,17 @@ struct RenderStopped {};
 
 // LayerRows are the memory in which the light of a band is divided among layers.
 struct LayerRows {
-  std::vector<float> before, left;
-  std::array<std::vector<float>, kLayers.size()> light;
+  std::vector<float> before;
+  // By layer: its light, and what a layer that hides leaves of what is behind it, or nothing.
+  std::array<std::vector<float>, kLayers.size()> light, left;
   std::array<bool, kLayers.size()> taken;
-  std::optional<Layer> hider;  // the layer that leaves `left` of what is behind it
 };
 
 // BandMemory is the memory of each thread.  It is kept from frame to frame, since getting new
 // memory takes more time than writing into it.
 struct BandMemory {
   tbb::enumerable_thread_specific<SplatBuffer> splats{};
-  tbb::enumerable_thread_specific<std::vector<float>> rows{}, background{};
+  tbb::enumerable_thread_specific<std::vector<float>> rows{}, background{}, covered{};
   tbb::enumerable_thread_specific<LayerRows> layers{};
   const std::atomic<bool>* stop = nullptr;  // set to end the frame early; or null
 
@@ -52,6 +52,7 @@ struct DrawnLight {
   const DiscPass* disc = nullptr;  // without height
   const GasPass* gas = nullptr;
   const BlobLayer* bodies = nullptr;
+  const BlobLayer* covers = nullptr;  // what of pixels they cover (BodyImages)
   const MattePass* mattes = nullptr;  // of all of this, for frames with mattes
 };
 

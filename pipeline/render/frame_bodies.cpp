@@ -10,65 +10,98 @@ namespace domefall {
 
 namespace {
 
-// Appends one image, and says whether it is bright enough.
-bool append_body(BodyTrails& trails, const Body& body, int order, const BodySight::Image& image,
-                 const DiscPass* disc, const FrameScene& scene, const StarImageFinder& finder,
-                 std::vector<StarImage>& images) {
-  const SceneStar star = BodySight::star_of(body);
+// A BodyPainter appends images of bodies, and what they cover.
+class BodyPainter {
+ public:
+  BodyPainter(const FrameScene& scene, const DiscPass* disc, BodyImages& images)
+      : scene_(scene),
+        disc_(disc),
+        trails_(scene),
+        finder_(scene, SkyRegion::kI),
+        images_(images) {}
+
+  const BodySight& sight() const { return trails_.sight(); }
+
+  // Appends one image, and says whether it is bright enough.
+  bool append(const Body& body, int order, const BodySight::Image& image) {
+    left_.clear(), tints_.clear();
+    const SceneStar star = BodySight::star_of(body);
+    const std::vector<BodyTrails::Piece> trail = trails_.trail(body, order, image);
+    for (const BodyTrails::Piece& piece : trail)
+      take(piece.image, piece.psi, piece.tint, piece.solid_angle);
+    if (!trail.empty()) return finder_.append_trail(star, left_, images_.light, tints_);
+    const std::vector<BodySight::Piece> pieces =
+        sight().pieces(body, image, scene_.point_spread.least());
+    for (const BodySight::Piece& piece : pieces)
+      take(piece.at, image.traced.psi, piece.tint, piece.solid_angle);
+    if (!pieces.empty()) return finder_.append_pieces(star, left_, images_.light, tints_);
+    take(image.at, image.traced.psi, {1, 1, 1}, 0);
+    return !left_.empty() && finder_.append_image(star, left_[0], images_.light);
+  }
+
+ private:
   // The disc hides each piece by itself, since the edge of its image may cross that of the body.
-  const auto before_disc = [&](SkyImage piece, double psi) {
-    if (disc)
-      piece.amplification *= disc->left_before(trails.sight().seen(piece).direction, psi,
-                                               largest_pixel_angle(scene.projection()));
-    return piece;
-  };
-  std::vector<SkyImage> left;
-  std::vector<WorkingRgb> tints;
-  for (const BodyTrails::Piece& piece : trails.trail(body, order, image)) {
-    left.push_back(before_disc(piece.image, piece.psi));
-    tints.push_back(piece.tint);
+  void take(SkyImage piece, double psi, const WorkingRgb& tint, double solid_angle) {
+    const BodySight::Seen seen = sight().seen(piece);
+    const double left =
+        disc_ ? disc_->left_before(seen.direction, psi, largest_pixel_angle(scene_.projection()))
+              : 1;
+    // The light of a pixel that is wholly covered is 1.
+    const auto pixel =
+        solid_angle * left > 0 ? pixel_of(scene_.projection(), seen.direction) : std::nullopt;
+    if (pixel) {
+      const auto covers = static_cast<float>(left * solid_angle / (seen.doppler * seen.doppler));
+      images_.cover.push_back({static_cast<float>(pixel->i - 1),
+                               static_cast<float>(pixel->j - 1),
+                               {covers, covers, covers}});
+    }
+    piece.amplification *= left;
+    if (!(piece.amplification > 0)) return;
+    left_.push_back(piece), tints_.push_back(tint);
   }
-  if (!left.empty()) return finder.append_trail(star, left, images, tints);
-  for (const BodySight::Piece& piece :
-       trails.sight().pieces(body, image, scene.point_spread.least())) {
-    left.push_back(before_disc(piece.at, image.traced.psi));
-    tints.push_back(piece.tint);
-  }
-  return left.empty() ? finder.append_image(star, before_disc(image.at, image.traced.psi), images)
-                      : finder.append_pieces(star, left, images, tints);
-}
+
+  const FrameScene& scene_;
+  const DiscPass* disc_;
+  BodyTrails trails_;
+  const StarImageFinder finder_;  // bodies are in region I or have come from there
+  BodyImages& images_;
+  std::vector<SkyImage> left_;
+  std::vector<WorkingRgb> tints_;
+};
 
 }  // namespace
 
-std::vector<StarImage> images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
-                                        const DiscPass* disc) {
-  BodyTrails trails(scene);
-  const BodySight& sight = trails.sight();
-  std::vector<StarImage> images;
-  if (sight.sees()) {
-    // Bodies are in region I or have come from there.
-    const StarImageFinder finder(scene, SkyRegion::kI);
-    for (const Body& body : bodies) {
-      // Higher orders become ever fainter, so the search ends after a few faint ones in succession.
-      int faint = 0;
-      for (int order = sight.first_order(body);
-           order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {
-        const auto image = sight.image(body, order);
-        if (!image) break;
-        const bool bright = append_body(trails, body, order, *image, disc, scene, finder, images);
-        faint = bright ? 0 : faint + 1;
-      }
+BodyImages images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
+                            const DiscPass* disc) {
+  BodyImages images;
+  BodyPainter painter(scene, disc, images);
+  const BodySight& sight = painter.sight();
+  if (!sight.sees()) return images;
+  for (const Body& body : bodies) {
+    // Higher orders become ever fainter, so the search ends after a few faint ones in succession.
+    int faint = 0;
+    for (int order = sight.first_order(body);
+         order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {
+      const auto image = sight.image(body, order);
+      if (!image) break;
+      faint = painter.append(body, order, *image) ? 0 : faint + 1;
     }
   }
   return images;
 }
 
 // An observer who sees no bodies gets an empty layer, which draws nothing.
-BlobLayer lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc) {
-  BlobLayer layer(scene.projection());
-  layer.add(images_of_bodies(scene, bodies, disc), scene.point_spread);
-  layer.sort_into_bands();
-  return layer;
+BodyLayers lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc) {
+  const BodyImages images = images_of_bodies(scene, bodies, disc);
+  const auto layer = [&](const std::vector<StarImage>& of) {
+    BlobLayer laid(scene.projection());
+    laid.add(of, scene.point_spread);
+    laid.sort_into_bands();
+    return laid;
+  };
+  BodyLayers layers{layer(images.light), std::nullopt};
+  if (!images.cover.empty()) layers.cover.emplace(layer(images.cover));
+  return layers;
 }
 
 }  // namespace domefall

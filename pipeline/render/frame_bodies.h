@@ -1,6 +1,7 @@
 // Lays out the bodies of a frame as blobs that are ready to be drawn.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,13 +12,21 @@
 
 namespace domefall {
 
-// Returns the images of bodies of the scene that are bright enough.  Some may lie outside the frame.
+// BodyImages are images of bodies that are bright enough, and what their spheres cover of the pixels,
+// as light whose value is 1 where a pixel is covered as a whole.  Some may lie outside the frame.
+struct BodyImages {
+  std::vector<StarImage> light, cover;
+};
 // Each image is dimmed by the parts of the disc that its light has crossed.  `disc` is null where
 // there is none.  Images that move are trails (body_trail.h).
-std::vector<StarImage> images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
-                                        const DiscPass* disc);
+BodyImages images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
+                            const DiscPass* disc);
 
-// Returns a layer with these images.
-BlobLayer lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc);
+// Returns layers with these images.
+struct BodyLayers {
+  BlobLayer light;
+  std::optional<BlobLayer> cover;  // where a sphere covers anything
+};
+BodyLayers lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc);
 
 }  // namespace domefall

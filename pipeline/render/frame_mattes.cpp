@@ -33,7 +33,8 @@ MattePass::MattePass(const FrameScene& scene, const DiscPass* disc)
       disc_(disc),
       borders_(scene.tracer, scene.projection()),
       seen_(seen_skies(scene.state.observer)) {
-  for (const Body& body : scene.bodies) bodies_.push_back(lay_bodies(scene, {&body, 1}, disc));
+  for (const Body& body : scene.bodies)
+    bodies_.push_back(lay_bodies(scene, {&body, 1}, disc).light);
 }
 
 void MattePass::fill_rows(int first, int end, const float* rgb, SplatBuffer& splats,

@@ -374,10 +374,10 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
     if (scene.plan.gas) gas.emplace(scene);
     times.disc_s = watch.lap();
     const DiscPass* const disc_or_none = disc ? &*disc : nullptr;
-    std::optional<BlobLayer> bodies;
+    std::optional<BodyLayers> bodies;
     if (!scene.bodies.empty()) {
       bodies.emplace(lay_bodies(scene, scene.bodies, disc_or_none));
-      times.images += bodies->size();
+      times.images += bodies->light.size();
     }
     std::optional<MattePass> mattes;
     if (!image.mattes.empty()) mattes.emplace(scene, disc_or_none);
@@ -389,7 +389,8 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
                 .borders = borders ? &*borders : nullptr,
                 .disc = flat ? disc_or_none : nullptr,
                 .gas = gas ? &*gas : nullptr,
-                .bodies = bodies ? &*bodies : nullptr,
+                .bodies = bodies ? &bodies->light : nullptr,
+                .covers = bodies && bodies->cover ? &*bodies->cover : nullptr,
                 .mattes = mattes ? &*mattes : nullptr},
                memory_->bands, image);
     memory_->bands.throw_if_stopped();

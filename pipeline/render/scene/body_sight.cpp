@@ -103,12 +103,10 @@ std::vector<BodySight::Piece> BodySight::pieces(const Body& body, const Image& i
   for (const SpherePiece& piece :
        sphere(body, image.traced, (in_trail ? 1 : 0.1) * pixel, spacing)) {
     const double light = surface.light(piece);
-    if (!(light > 0)) continue;
-    pieces.push_back({piece.at, surface.tint(piece)});
+    // A dark side has pieces, too, which hide what is behind them.
+    pieces.push_back({piece.at, surface.tint(piece), piece.at.amplification});
     pieces.back().at.amplification *= light / (std::numbers::pi * whole * whole);
   }
-  // A dark side is drawn by one piece without light.
-  if (pieces.empty() && !surface.is_even()) pieces.push_back({{image.at.direction, 1, 0}});
   return pieces;
 }
 
@@ -141,7 +139,8 @@ BodySight::Seen BodySight::seen(const SkyImage& image) const {
   if (viewer_.measured) g *= to_observer(*viewer_.measured, at.direction).frequency_ratio;
   return {{apply_transposed(observer_.tetrad_from_camera, at.direction)},
           received_flux(effects_, 1, image.amplification, at.frequency_ratio, g),
-          g};
+          g,
+          at.frequency_ratio};
 }
 
 double BodySight::seen_v(const Body& body, const SkyImage& at,

@@ -57,6 +57,7 @@ class BodySight {
   struct Piece {
     SkyImage at;
     WorkingRgb tint{1, 1, 1};
+    double solid_angle = 0;  // that it covers in the frame of `at`, steradians; 0 of a point
   };
   // They are right to 0.1 pixel, or to one in a trail, which is blurred.
   std::vector<Piece> pieces(const Body& body, const Image& image, double sigma,
@@ -68,6 +69,7 @@ class BodySight {
   struct Seen {
     CameraDirection direction;
     double brightening, frequency_ratio;
+    double doppler;  // frequency for who sees it over that in the tetrad
   };
   Seen seen(const SkyImage& image) const;
 

@@ -154,5 +154,42 @@ TEST(BodySurface, IsInTheKeysOfFrames) {
   EXPECT_NE(key(lit), key(from_hole));
 }
 
+// A planet's night side is black before the sky, and what is left of the sky says so.
+TEST(BodySurface, HidesWhatIsBehindIt) {
+  Show show = show_with_sphere(3000, 2000, 0.1, 100);
+  show.sky[SkyRegion::kI].background = GridSky{};
+  show.point_spread.min_sigma = show.point_spread.max_sigma = 0.1 * kDegree;
+  const FrameState state = frame_state(show, 0);
+  // Lit from behind, as the observer sees it.
+  show.bodies[0].lit_from = SkyDirection{column(state.observer.sky_from_tetrad, 0) * -1.0};
+  const BodySight sight(state, show.effects, show.least_star_radius);
+  const CameraDirection middle = sight.seen(sight.image(show.bodies[0], 0)->at).direction;
+  const PixelPosition pixel = pixel_of(state.projection, middle).value();
+  const auto at =
+      static_cast<std::size_t>(std::lround(pixel.j - 1) * 201 + std::lround(pixel.i - 1));
+  LayeredFloatFrame frame({Layer::kSky, Layer::kBodies});
+  Renderer(show, 1).render(state, frame);
+  EXPECT_NEAR(frame.find(Layer::kBodies)->alpha[at], 1, 1e-2);
+  EXPECT_NEAR(frame.find(Layer::kBodies)->alpha[0], 0, 1e-6);
+  EXPECT_LT(frame.picture.pixels[3 * at], 1e-2f);
+  EXPECT_LT(frame.find(Layer::kSky)->light.pixels[3 * at], 1e-2f);
+  Show without = show;
+  without.bodies.clear();
+  LayeredFloatFrame bare({Layer::kSky});
+  Renderer(without, 1).render(state, bare);
+  double covered = 0, dimmed = 0, before = 0;
+  for (int row = 0; row < 201; ++row)
+    for (int k = 0; k < 201; ++k) {
+      const auto pixel_at = static_cast<std::size_t>(201 * row + k);
+      covered += static_cast<double>(frame.find(Layer::kBodies)->alpha[pixel_at]) *
+                 pixel_solid_angle(state.projection, {k + 1.0, row + 1.0});
+      before += static_cast<double>(bare.picture.pixels[3 * pixel_at]);
+      dimmed += static_cast<double>(frame.find(Layer::kSky)->light.pixels[3 * pixel_at]);
+    }
+  const double distance2 = 3e3 * 3e3 + 2e3 * 2e3 - 2 * 3e3 * 2e3 * std::cos(0.1);
+  EXPECT_NEAR(covered / (pi * 100 * 100 / distance2), 1, 0.05);
+  EXPECT_LT(dimmed, before);
+}
+
 }  // namespace
 }  // namespace domefall
