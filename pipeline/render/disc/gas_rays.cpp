@@ -30,6 +30,13 @@ double depth_of_light(double depth) {
   return depth < 1e-3 ? 0.5 - depth / 12 : 1 / depth - 1 / (exponential(depth) - 1);
 }
 
+// Returns which part of gas at psi counts as next to the observer.
+double part_near(double psi) {
+  constexpr double kNear = 0.6, kFar = 1;
+  const double t = std::clamp((kFar - psi) / (kFar - kNear), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
 // Returns the part of the way from one place to the next on which 1/r comes to w, or 0.
 double part_at(const LightPath::Place& a, const LightPath::Place& b, double w) {
   if ((a.w > w) == (b.w > w)) return 0;
@@ -188,6 +195,25 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
   return seen(ray, layers);
 }
 
+// Adds the light of a layer of the disc to a look.
+void GasRays::add_look(const Ray& ray, const Layer& layer, const WorkingRgb& light, double weight,
+                       GasLook& to) const {
+  const std::array<double, 3> c{weight * light.r, weight * light.g, weight * light.b};
+  for (std::size_t n = 0; n < 3; ++n) to.light[n] += static_cast<float>(c[n]);
+  const SineCosine at = sin_cos(layer.psi);
+  const V3d place = V3d(at.cosine, 0, 0) + ray.across * at.sine;
+  const double share = c[0] + c[1] + c[2], radius = layer.r;
+  const double time = scene_.disc->disc().slow_light ? clock_->time_at(radius, layer.time)
+                                                     : clock_->observer_time();
+  // Gas at another height has other filaments, since no pattern is the same all through the disc.
+  constexpr double kOutwards = 2;
+  const double s = place.dot(disc_normal_), rounded = disc_->height / 2;
+  const double shown = share * radius * (1 + kOutwards * std::sqrt(s * s + rounded * rounded));
+  to.x += static_cast<float>(shown * place.dot(node_));
+  to.y += static_cast<float>(shown * place.dot(quarter_));
+  to.time += static_cast<float>(share * (time - clock_->observer_time()));
+}
+
 // Lays layers behind each other, the nearest first.
 GasSight GasRays::seen(const Ray& ray, const std::vector<Layer>& layers) const {
   thread_local std::vector<float> r, ratio;
@@ -219,25 +245,20 @@ GasSight GasRays::seen(const Ray& ray, const std::vector<Layer>& layers) const {
     const double weight =
         opacity_ * gain_ * left * (1 - kept) * surface_brightness_ratio(scene_.effects, l.ratio);
     left *= kept;
-    const int look = static_cast<int>(std::floor((l.psi - crossing) / pi + 0.5)) + 1;
-    if (!clock_ || look >= GasSight::kLooks) {
+    if (!clock_) {
       plain = sum(plain, light[k], weight);
       continue;
     }
-    GasLook& to = sight.looks[static_cast<std::size_t>(std::max(0, look))];
-    const std::array<double, 3> c{weight * light[k].r, weight * light[k].g, weight * light[k].b};
-    for (std::size_t n = 0; n < 3; ++n) to.light[n] += static_cast<float>(c[n]);
-    const SineCosine at = sin_cos(l.psi);
-    const V3d place = V3d(at.cosine, 0, 0) + ray.across * at.sine;
-    const double share = c[0] + c[1] + c[2], radius = l.r;
-    const double time =
-        scene_.disc->disc().slow_light ? clock_->time_at(radius, l.time) : clock_->observer_time();
-    // Gas at another height has other filaments, since no pattern is the same all through the disc.
-    constexpr double kOutwards = 2;
-    const double shown = share * radius * (1 + kOutwards * std::abs(place.dot(disc_normal_)));
-    to.x += static_cast<float>(shown * place.dot(node_));
-    to.y += static_cast<float>(shown * place.dot(quarter_));
-    to.time += static_cast<float>(share * (time - clock_->observer_time()));
+    // What is next to the observer passes into what is about a crossing without a jump.
+    const double near = part_near(l.psi);
+    if (near > 0) add_look(ray, l, light[k], weight * near, sight.looks[0]);
+    if (near == 1) continue;
+    const auto about =
+        static_cast<std::size_t>(std::max(1.0, std::floor((l.psi - crossing) / pi + 0.5) + 1));
+    if (about < sight.looks.size())
+      add_look(ray, l, light[k], weight * (1 - near), sight.looks[about]);
+    else
+      plain = sum(plain, light[k], weight * (1 - near));
   }
   sight.light = {plain.r, plain.g, plain.b};
   sight.left = static_cast<float>(1 - opacity_ + opacity_ * left);

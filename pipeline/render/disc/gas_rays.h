@@ -14,7 +14,7 @@
 
 namespace domefall {
 
-// A GasLook is what a ray sees of a disc about one of its crossings of the plane: light that no pattern
+// A GasLook is what a ray sees of a disc in one place, such as about a crossing of the plane: light that no pattern
 // has multiplied, and, times the sum of its three colours, the place of the gas in the plane (M) and
 // the time at which the light left it.
 struct GasLook {
@@ -27,7 +27,7 @@ struct GasSight {
   std::array<float, 3> light{};  // what no pattern multiplies
   float left = 1;                // of the light behind all gas
   // Of a disc with a pattern: what is next to the observer, about the first crossing, and about the
-  // second.  Later ones count as light alone.
+  // second.  Later ones count as light alone, since they are thin.
   static constexpr int kLooks = 3;
   std::array<GasLook, kLooks> looks{};
 };
@@ -86,6 +86,8 @@ class GasRays {
   };
   int steps_between(const LightPath::Place& a, const LightPath::Place& b, const V3d& across) const;
   Layer layer(const Ray& ray, const Step& step) const;
+  void add_look(const Ray& ray, const Layer& layer, const WorkingRgb& light, double weight,
+                GasLook& to) const;
   GasSight seen(const Ray& ray, const std::vector<Layer>& layers) const;
 
   const FrameScene& scene_;
