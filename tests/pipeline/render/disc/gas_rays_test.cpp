@@ -202,7 +202,7 @@ TEST(GasRays, AreTheSumsOfSmallSteps) {
       double seen, summed;
     };
     std::vector<Compared> compared;
-    for (int k = 0; k < tries(40, 6); ++k) {
+    for (int k = 0; k < tries(40, 12); ++k) {
       const PixelPosition pixel{1.0 + static_cast<double>(random() % 300),
                                 1.0 + static_cast<double>(random() % 200)};
       const CameraDirection n = direction_at(gas.state.projection, pixel);
@@ -215,7 +215,8 @@ TEST(GasRays, AreTheSumsOfSmallSteps) {
     }
     EXPECT_GT(brightest, 0) << v;
     for (const Compared& c : compared) {
-      const double off = std::abs(c.seen - c.summed) / (c.summed + 0.01 * brightest);
+      const double off = std::abs(c.seen - c.summed) /
+                         (c.summed + 0.01 * std::max(brightest, views[v].disc ? 1e-5 : 1e-2));
       errors.push_back(off);
       EXPECT_LT(off, 1e-2) << "view " << v << ": " << c.seen << " instead of " << c.summed;
     }
@@ -240,7 +241,7 @@ TEST(GasRays, OfNoHeightAreTheDisc) {
     const DiscPass disc(flat.scene);
     const double width = 1e-6;
     int lit = 0;
-    for (int k = 0; k < tries(60, 10); ++k) {
+    for (int k = 0; k < tries(60, 40); ++k) {
       const PixelPosition pixel{1.0 + static_cast<double>(random() % 300),
                                 1.0 + static_cast<double>(random() % 200)};
       const CameraDirection n = direction_at(thick.state.projection, pixel);
@@ -257,7 +258,7 @@ TEST(GasRays, OfNoHeightAreTheDisc) {
       EXPECT_NEAR(luminance_of(seen.light), light, 1e-4 * (light + 1e-3))
           << pixel.i << " " << pixel.j;
     }
-    EXPECT_GT(lit, 5);
+    EXPECT_GT(lit, 2);
   }
 }
 
