@@ -15,11 +15,11 @@ namespace {
 
 using std::numbers::pi;
 
-// Rays are this far apart (radians), or a quarter of what the gas changes over, or two pixels if that is
+// Rays are this far apart (radians), or a third of what the gas changes over, or two pixels if that is
 // more, but no more than half as much again.
-constexpr double kSpacing = 0.04, kOfFinest = 0.25, kPixels = 2;
+constexpr double kSpacing = 0.04, kOfFinest = 0.33, kPixels = 2;
 // Rows for each factor e towards the edge, and the distance at which these end, in pixels.
-constexpr double kPerLogOfDisc = 24, kPerLog = 10, kNearest = 1.0 / 16;
+constexpr double kPerLogOfDisc = 16, kPerLog = 10, kNearest = 1.0 / 16;
 constexpr int kMostParts = 24;
 
 // Adds the weighted mean of blocks of eight.

@@ -30,10 +30,9 @@ double depth_of_light(double depth) {
   return depth < 1e-3 ? 0.5 - depth / 12 : 1 / depth - 1 / (exponential(depth) - 1);
 }
 
-// Returns which part of gas at psi counts as next to the observer.
-double part_near(double psi) {
-  constexpr double kNear = 0.6, kFar = 1;
-  const double t = std::clamp((kFar - psi) / (kFar - kNear), 0.0, 1.0);
+// Falls smoothly from 1 below `begin` to 0 above `end`.
+double falling(double x, double begin, double end) {
+  const double t = std::clamp((end - x) / (end - begin), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
@@ -233,6 +232,7 @@ GasSight GasRays::seen(const Ray& ray, const std::vector<Layer>& layers) const {
   const double up = std::abs(disc_normal_.x),
                toward = ray.across.dot(disc_normal_) * (disc_normal_.x > 0 ? -1 : 1);
   const double crossing = arc_tangent2(up, toward);
+  const double amid = disc_ ? falling(up / disc_->height, 1.5, 3) : 0;
   double left = 1;
   WorkingRgb plain{0, 0, 0};
   for (std::size_t k = 0; k < layers.size(); ++k) {
@@ -249,8 +249,8 @@ GasSight GasRays::seen(const Ray& ray, const std::vector<Layer>& layers) const {
       plain = sum(plain, light[k], weight);
       continue;
     }
-    // What is next to the observer passes into what is about a crossing without a jump.
-    const double near = part_near(l.psi);
+    // What is next to an observer in the gas passes into what is about a crossing without a jump.
+    const double near = amid * falling(l.psi, 0.6, 1);
     if (near > 0) add_look(ray, l, light[k], weight * near, sight.looks[0]);
     if (near == 1) continue;
     const auto about =
