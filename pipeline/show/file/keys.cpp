@@ -304,7 +304,7 @@ constexpr std::string_view kRows = R"(
 ## exposure
 | `ev` | -30 to 30 stops: +1 doubles the light | [0] |
 ## glare
-| `share` | 0 to 0.9: the part of all light that is spread around; 0 for none | [0.12 with a disc or bodies that have a radius, else 0] |
+| `share` | 0 to 0.9: the part of all light that is spread around; 0 for none | [0.12 with a disc, a halo, a jet or bodies that have a radius, else 0] |
 | `width_deg` | 0.3 to 5: the standard deviation of the narrowest part; the others are 4, 15 and 50 times as wide | [0.5] |
 ## shutter
 | `disc` | above 0, at most 65504: instead of `ev`, that at which the disc's hottest ring has this pixel value for whoever moves with it | |
