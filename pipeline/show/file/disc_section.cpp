@@ -150,6 +150,11 @@ std::optional<Disc> read_disc(const Section& show, const Show& to, const Lookup&
   disc.luminance = s.number("luminance_cd_m2");
   disc.optical_depth = s.number("optical_depth"), disc.rim = s.number("rim");
   disc.height = s.number("height");
+  // A lower slab would be finer than the rays by which it is looked at.
+  constexpr double kLeastHeight = 0.01;
+  if (disc.height > 0 && disc.height < kLeastHeight)
+    s.find("height")->fail(fmt::format("must be 0, for a sheet, or at least {}, got {}",
+                                       kLeastHeight, as_written(*s.find("height"))));
   disc.opacity = s.number("opacity");
   if (const Item* pattern = s.find("pattern"))
     disc.patterns = read_patterns(*pattern, disc, lookup);

@@ -238,7 +238,7 @@ constexpr std::string_view kRows = R"(
 | `t_max_k` | 1000 to 1e9: the temperature of its hottest ring; gold at 3000, like the Sun at 6000, blue at 20000 | [3000] |
 | `optical_depth` | above 0, at most 1e6: through the gas at right angles; with less than 1 stars shine through, and along its plane all gas is opaque | [6] |
 | `rim` | 0 to 0.5 of its radius: over which it thins out at its inner and outer end | [0.2] |
-| `height` | 0 to 0.5: H/r of its section, a Gaussian, at `outer_r`; it falls inwards as the eighth root of r; 0 of a sheet | [0] |
+| `height` | 0 to 0.5: H/r of its section, a Gaussian, at `outer_r`; it falls inwards as the eighth root of r; 0 of a sheet, else at least 0.01 | [0] |
 | `plunging` | `true` or `false`: whether gas falls in from the last stable orbit and shines on its way | [`false`] |
 | `pattern` | `turbulence`, `rings`, `spot` or `none`: or a map with one of these as `type` and the keys below, or a list of them | [`none`] |
 | `slow_light` | `true` or `false`: whether a pattern is seen as it was when the light left it; with `false` all of it is seen at one time | [`true`] |

@@ -228,6 +228,8 @@ TEST_F(DiscMistakes, OfHalosAndJetsAreNamedWithTheirBounds) {
       {"halo: {t_k: 20}", "3:13: halo.t_k must be at least 500 (kelvin), got 20"},
       {"jet: {lorentz_factor: 0.5}", "3:23: jet.lorentz_factor must be at least 1, got 0.5"},
       {"jet: {opening: 3}", "3:7: jet.opening is an unknown key; did you mean opening_deg?"},
+      {"disc: {height: 0.005}",
+       "3:16: disc.height must be 0, for a sheet, or at least 0.01, got 0.005"},
       {"disc: {height: 0.6}", "3:16: disc.height must be at most 0.5, got 0.6"},
       {"disc: {}\nhalo: {}",
        "4:7: halo needs a disc with a height, which it can shine through: give disc.height"},
