@@ -13,9 +13,10 @@ namespace {
 // A BodyPainter appends images of bodies, and what they cover.
 class BodyPainter {
  public:
-  BodyPainter(const FrameScene& scene, const DiscPass* disc, BodyImages& images)
+  BodyPainter(const FrameScene& scene, const DiscPass* disc, const GasRays* gas, BodyImages& images)
       : scene_(scene),
         disc_(disc),
+        gas_(gas),
         trails_(scene),
         finder_(scene, SkyRegion::kI),
         images_(images) {}
@@ -43,9 +44,12 @@ class BodyPainter {
   // The disc hides each piece by itself, since the edge of its image may cross that of the body.
   void take(SkyImage piece, double psi, const WorkingRgb& tint, double solid_angle) {
     const BodySight::Seen seen = sight().seen(piece);
+    GasSight front;
+    if (gas_ && (disc_ || solid_angle > 0)) front = gas_->sight_before(seen.direction, psi);
     const double left =
-        disc_ ? disc_->left_before(seen.direction, psi, largest_pixel_angle(scene_.projection()))
-              : 1;
+        gas_    ? static_cast<double>(front.left)
+        : disc_ ? disc_->left_before(seen.direction, psi, largest_pixel_angle(scene_.projection()))
+                : 1;
     // The light of a pixel that is wholly covered is 1.
     const auto pixel =
         solid_angle * left > 0 ? pixel_of(scene_.projection(), seen.direction) : std::nullopt;
@@ -54,6 +58,13 @@ class BodyPainter {
       images_.cover.push_back({static_cast<float>(pixel->i - 1),
                                static_cast<float>(pixel->j - 1),
                                {covers, covers, covers}});
+      // Gas in front of the sphere is hidden with what is behind it, and so added again.
+      const std::array<float, 3> light = front.even_light();
+      const auto again = covers * static_cast<float>(scene_.exposure);
+      if (light[0] + light[1] + light[2] > 0)
+        images_.light.push_back({images_.cover.back().x,
+                                 images_.cover.back().y,
+                                 {again * light[0], again * light[1], again * light[2]}});
     }
     piece.amplification *= left;
     if (!(piece.amplification > 0)) return;
@@ -62,6 +73,7 @@ class BodyPainter {
 
   const FrameScene& scene_;
   const DiscPass* disc_;
+  const GasRays* gas_;
   BodyTrails trails_;
   const StarImageFinder finder_;  // bodies are in region I or have come from there
   BodyImages& images_;
@@ -72,9 +84,9 @@ class BodyPainter {
 }  // namespace
 
 BodyImages images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
-                            const DiscPass* disc) {
+                            const DiscPass* disc, const GasRays* gas) {
   BodyImages images;
-  BodyPainter painter(scene, disc, images);
+  BodyPainter painter(scene, disc, gas, images);
   const BodySight& sight = painter.sight();
   if (!sight.sees()) return images;
   for (const Body& body : bodies) {
@@ -91,8 +103,9 @@ BodyImages images_of_bodies(const FrameScene& scene, std::span<const Body> bodie
 }
 
 // An observer who sees no bodies gets an empty layer, which draws nothing.
-BodyLayers lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc) {
-  const BodyImages images = images_of_bodies(scene, bodies, disc);
+BodyLayers lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc,
+                      const GasRays* gas) {
+  const BodyImages images = images_of_bodies(scene, bodies, disc, gas);
   const auto layer = [&](const std::vector<StarImage>& of) {
     BlobLayer laid(scene.projection());
     laid.add(of, scene.point_spread);

@@ -17,16 +17,17 @@ namespace domefall {
 struct BodyImages {
   std::vector<StarImage> light, cover;
 };
-// Each image is dimmed by the parts of the disc that its light has crossed.  `disc` is null where
+// Each image is dimmed by the parts of the disc that its light has crossed.  `disc` and `gas` are null where
 // there is none.  Images that move are trails (body_trail.h).
 BodyImages images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
-                            const DiscPass* disc);
+                            const DiscPass* disc, const GasRays* gas = nullptr);
 
 // Returns layers with these images.
 struct BodyLayers {
   BlobLayer light;
   std::optional<BlobLayer> cover;  // where a sphere covers anything
 };
-BodyLayers lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc);
+BodyLayers lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc,
+                      const GasRays* gas = nullptr);
 
 }  // namespace domefall

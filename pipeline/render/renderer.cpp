@@ -376,7 +376,7 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
     const DiscPass* const disc_or_none = disc ? &*disc : nullptr;
     std::optional<BodyLayers> bodies;
     if (!scene.bodies.empty()) {
-      bodies.emplace(lay_bodies(scene, scene.bodies, disc_or_none));
+      bodies.emplace(lay_bodies(scene, scene.bodies, disc_or_none, gas ? &gas->rays() : nullptr));
       times.images += bodies->light.size();
     }
     std::optional<MattePass> mattes;

@@ -52,7 +52,7 @@ void DiscPass::locate(const CameraDirection* n, const double* angle, int count,
 double DiscPass::left_before(const CameraDirection& n, double psi, double width) const {
   // A body that moves in the plane itself is not hidden by the disc there.
   constexpr double kInPlane = 1e-6;
-  if (gas_) return gas_->left_before(n, psi);
+  if (gas_) return static_cast<double>(gas_->sight_before(n, psi).left);
   Crossings pixel;
   locate(&n, &width, 1, pixel);
   if (!(pixel.energy[0] > 0)) return 1;

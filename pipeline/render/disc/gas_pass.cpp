@@ -62,6 +62,15 @@ std::array<float, 4> cubic_weights(double part) {
           (t3 - t2) / 2};
 }
 
+// Says whether the light of a pixel, times a weight, is no less than the least of the rays around it.
+bool is_between(const std::array<float, 8>& block, const std::array<const float*, 16>& rays,
+                float weight) {
+  for (std::size_t c = 0; c < 3; ++c)
+    if (block[c] < weight * std::min({rays[5][c], rays[6][c], rays[9][c], rays[10][c]}))
+      return false;
+  return true;
+}
+
 }  // namespace
 
 GasPass::GasPass(const FrameScene& scene)
@@ -222,7 +231,19 @@ unsigned GasPass::add_values(const Side& side, double x, double azimuth, float w
     if (n > 0 && !(lit & 1u << n)) continue;
     std::array<const float*, 16> from;
     for (std::size_t k = 0; k < from.size(); ++k) from[k] = rays[k][n].data();
-    add_blocks(from.data(), weights.data(), 16, values[n].data());
+    Block block{};
+    add_blocks(from.data(), weights.data(), 16, block.data());
+    // Beside what is brighter by far a cubic falls below the rays around it.
+    if (!is_between(block, from, weight)) {
+      block.fill(0);
+      const std::array<const float*, 4> middle{from[5], from[6], from[9], from[10]};
+      const auto on_part = static_cast<float>(column - j), down_part = static_cast<float>(row - i);
+      const std::array<float, 4> linear{
+          weight * (1 - down_part) * (1 - on_part), weight * (1 - down_part) * on_part,
+          weight * down_part * (1 - on_part), weight * down_part * on_part};
+      add_blocks(middle.data(), linear.data(), 4, block.data());
+    }
+    for (std::size_t c = 0; c < kBlock; ++c) values[n][c] += block[c];
   }
   return lit;
 }

@@ -15,9 +15,8 @@ using std::numbers::pi;
 
 // A disc's gas is left out beyond so many of its heights, where 2e-6 of it is left.
 constexpr double kHeights = 4.75;
-// Steps are at most this part of a disc's height, on rays that cross it at a right angle, and no longer
-// than for this sine of the angle between ray and plane.
-constexpr double kLeastRate = 0.3;
+// Steps are at most this part of a disc's height.  Were they longer on rays that graze it, filaments
+// would have faults where their number changes.
 constexpr double kFine = 0.3;
 
 WorkingRgb sum(const WorkingRgb& a, const WorkingRgb& b, double factor) {
@@ -112,10 +111,8 @@ int GasRays::steps_between(const LightPath::Place& a, const LightPath::Place& b,
   if (jet_) longest = std::min(longest, longest_step(*jet_, latitude(jet_normal_), length));
   if (disc_ && std::min(a.w, b.w) < 1 / disc_->inner) {
     // The sine of a latitude changes by no more than the angle.
-    if (latitude(disc_normal_) < kHeights * disc_->height + length / 2) {
-      const double rate = std::abs(cosine * across.dot(disc_normal_) - sine * disc_normal_.x);
-      longest = std::min(longest, disc_step_ / std::max(rate, kLeastRate));
-    }
+    if (latitude(disc_normal_) < kHeights * disc_->height + length / 2)
+      longest = std::min(longest, disc_step_);
   }
   return static_cast<int>(std::ceil(length / longest));
 }
@@ -265,13 +262,13 @@ GasSight GasRays::seen(const Ray& ray, const std::vector<Layer>& layers) const {
   return sight;
 }
 
-double GasRays::left_before(const CameraDirection& n, double psi) const {
+GasSight GasRays::sight_before(const CameraDirection& n, double psi) const {
   FrameRayBatch at;
   scene_.tracer.into_frame(&n, 1, at);
   const double beside = std::sqrt(at.y[0] * at.y[0] + at.z[0] * at.z[0]),
                alpha = arc_tangent2(beside, counts_from_hole() ? -at.x[0] : at.x[0]);
   const V3d across = beside > 0 ? V3d(0, at.y[0] / beside, at.z[0] / beside) : V3d(0, 1, 0);
-  return sight(path(alpha), across, at.frequency[0], psi).left;
+  return sight(path(alpha), across, at.frequency[0], psi);
 }
 
 }  // namespace domefall

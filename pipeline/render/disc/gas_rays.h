@@ -30,6 +30,14 @@ struct GasSight {
   // second.  Later ones count as light alone, since they are thin.
   static constexpr int kLooks = 3;
   std::array<GasLook, kLooks> looks{};
+
+  // All light, as if there were no pattern.
+  std::array<float, 3> even_light() const {
+    std::array<float, 3> sum = light;
+    for (const GasLook& look : looks)
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += look.light[c];
+    return sum;
+  }
 };
 
 class GasRays {
@@ -54,9 +62,8 @@ class GasRays {
   GasSight sight(const LightPath& path, const V3d& across, double frequency,
                  double until = HUGE_VAL) const;
 
-  // Returns the part of the light from a place that the gas in front of it lets through.  It is seen
-  // in direction n, and its light has swept psi.
-  double left_before(const CameraDirection& n, double psi) const;
+  // Returns what is seen in direction n in front of a place whose light has swept psi.
+  GasSight sight_before(const CameraDirection& n, double psi) const;
 
   // Says whether alpha counts from -R, where the hole is, or from R.
   bool counts_from_hole() const;

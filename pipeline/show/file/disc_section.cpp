@@ -36,7 +36,7 @@ void read_radii(const Section& s, Disc& disc) {
 std::optional<PatternKind> read_map(const Item& item, const Disc& disc, const Lookup& lookup) {
   const Section s(item, {"pattern", "pattern.file"});
   MapPattern map{{}, s.number("at_m"), disc.inner, disc.outer};
-  const Item* name = s.require("file", "a picture");
+  const Item* name = s.require("file", ", a picture");
   const auto text = name ? read_text(*name) : std::nullopt;
   const auto file = text ? lookup.file(*name, *text) : std::nullopt;
   if (!file) return std::nullopt;

@@ -24,7 +24,7 @@ double from_axis(double latitude_sine) {
 
 double density(const Halo& halo, const GasOrbits& hole, const GasPlace& at) {
   if (at.r <= hole.horizon()) return 0;
-  return gaussians(at.r / halo.r, at.latitude_sine / halo.height);
+  return hole.lapse_squared(at.r) * gaussians(at.r / halo.r, at.latitude_sine / halo.height);
 }
 
 double density(const Jet& jet, const GasOrbits& hole, const GasPlace& at) {

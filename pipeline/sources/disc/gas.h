@@ -1,6 +1,6 @@
 // Gas that is so thin that light goes through it: a halo about the hole and a pair of jets.  Each is
 // where its formula says, turns or flows as its formula says, and glows in proportion to its density
-// (docs/gas.md).  Units of M.
+// (docs/disc.md).  Units of M.
 #pragma once
 
 #include <array>
@@ -19,11 +19,12 @@ using GasTemperature = std::optional<double>;
 
 // A Halo is a torus of gas about its axis.  With the sine s of the latitude its density is
 //
-//     n(r, s) = exp(-(r/R)^2/2 - (s/H)^2/2),
+//     n(r, s) = f exp(-(r/R)^2/2 - (s/H)^2/2),      f = 1 - 2/r + q^2/r^2,
 //
 // and it circles with the angular momentum l = rho^(3/2)/(1 + rho) for each unit of energy, rho =
 // r cos(latitude), which is close to a free orbit far away and falls behind it near the hole: the
-// analytic model of Gold et al., ApJ 897, 148 (2020).
+// analytic model of Gold et al., ApJ 897, 148 (2020), but for f.  On the horizon nothing circles, and
+// without f its light would be bright beyond bounds for who falls past.
 struct Halo {
   SkyDirection normal{V3d(0, 0, 1)};
   double r = 10, height = 0.3;  // R, H

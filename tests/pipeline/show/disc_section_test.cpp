@@ -185,6 +185,9 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
       {"disc: {pattern: {file: show.yaml}}",
        "3:24: disc.pattern.file cannot be used: show.yaml: the image cannot be read: by its first "
        "bytes it is not OpenEXR, PNG, TIFF, JPEG, Radiance (HDR) or WebP"},
+      {"disc: {pattern: {type: file}}", "3:17: disc.pattern.file is missing, a picture"},
+      {"disc: {luminance_cd_m2: 1e-300}\nexposure: {disc: 10}",
+       "4:18: exposure.disc would need 990 stops of exposure, and 30 are the most"},
       {"disc: {pattern: file}",
        "3:17: disc.pattern must be a map of keys (type, file or at_m), got 'file'"},
       {"disc: {slow_light: 3}", "3:20: disc.slow_light must be true or false, got '3'"},
