@@ -264,7 +264,8 @@ std::optional<SeenPlace> place_seen(const View& view, double null_time, double r
   const double k_r = radial_momentum(view, body, *light);
   const Received there = received(view, r, light->energy, k_r, light->angular_momentum / r);
   const double angle = 2 * std::atan2(light->sin_half, light->cos_half);
-  return SeenPlace{*light, is_outgoing(view) ? std::numbers::pi - angle : angle,
+  const PlaceLight& seen = *light;
+  return SeenPlace{seen, is_outgoing(view) ? std::numbers::pi - angle : angle,
                    null_time + light->null_time + (is_outgoing(view) ? 2 * tortoise(view, r) : 0),
                    there.frequency, there.along_r};
 }

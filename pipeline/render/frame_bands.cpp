@@ -236,6 +236,31 @@ void cover_rows(const BlobLayer& covers, int band, std::size_t pixels, SplatBuff
   }
 }
 
+template <class T>
+void draw_gas(const DrawnLight& drawn, int first, int end, float* rgb,
+              std::optional<BandLayers<T>>& layers) {
+  if (!drawn.disc && !drawn.gas) return;
+  float* const left = layers ? layers->left(Layer::kDisc) : nullptr;
+  if (drawn.disc) drawn.disc->draw_rows(first, end, rgb, left);
+  if (drawn.gas) drawn.gas->draw_rows(first, end, rgb, left);
+  if (layers) layers->take_hiding(Layer::kDisc, rgb);
+}
+
+// There are bodies.  Those that are spheres hide what is behind them.
+template <class T>
+void draw_bodies(const DrawnLight& drawn, int band, std::size_t pixels, SplatBuffer& splats,
+                 std::vector<float>& covered, float* rgb, std::optional<BandLayers<T>>& layers) {
+  if (drawn.covers)
+    cover_rows(*drawn.covers, band, pixels, splats, covered, rgb,
+               layers ? layers->left(Layer::kBodies) : nullptr);
+  drawn.bodies->draw_band(band, splats, rgb);
+  if (!layers) return;
+  if (drawn.covers)
+    layers->take_hiding(Layer::kBodies, rgb);
+  else
+    layers->take(Layer::kBodies, rgb);
+}
+
 // Gives pixels to the layers in which something may be drawn, and to no others.
 template <class T>
 void prepare_layers(bool lit, const DrawnLight& drawn, LayeredFrame<T>& frame) {
@@ -301,22 +326,10 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
     stars.draw_band(band, splats, rgb.data());
     if (stars_end) stars_end->end_stars(rgb.data());
     if (layers) layers->take(Layer::kStars, rgb.data());
-    if (drawn.disc || drawn.gas) {
-      float* const left = layers ? layers->left(Layer::kDisc) : nullptr;
-      if (drawn.disc) drawn.disc->draw_rows(first, end, rgb.data(), left);
-      if (drawn.gas) drawn.gas->draw_rows(first, end, rgb.data(), left);
-      if (layers) layers->take_hiding(Layer::kDisc, rgb.data());
-    }
-    if (drawn.covers)
-      cover_rows(*drawn.covers, band, static_cast<std::size_t>((end - first) * width), splats,
-                 memory.covered.local(), rgb.data(),
-                 layers ? layers->left(Layer::kBodies) : nullptr);
+    draw_gas(drawn, first, end, rgb.data(), layers);
     if (drawn.bodies) {
-      drawn.bodies->draw_band(band, splats, rgb.data());
-      if (layers && drawn.covers)
-        layers->take_hiding(Layer::kBodies, rgb.data());
-      else if (layers)
-        layers->take(Layer::kBodies, rgb.data());
+      const std::size_t pixels = static_cast<std::size_t>(end - first) * stride / 3;
+      draw_bodies(drawn, band, pixels, splats, memory.covered.local(), rgb.data(), layers);
     }
     if (drawn.mattes) drawn.mattes->fill_rows(first, end, rgb.data(), splats, frame.mattes);
     for (int row = first; row < end; ++row) {

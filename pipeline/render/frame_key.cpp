@@ -102,6 +102,15 @@ void FrameKeys::add_segments() {
         own_skies_[static_cast<int>(k)] += fmt::format("{} {};", kSkyKeys[region], key_of(*own));
 }
 
+void FrameKeys::add_pattern_files(Digest& digest) {
+  if (!show_.disc) return;
+  for (const PatternKind& pattern : show_.disc->patterns)
+    if (const auto* map = std::get_if<MapPattern>(&pattern)) {
+      stamp(map->file);
+      digest.add_file(map->file);
+    }
+}
+
 FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(std::move(grade)) {
   Digest common;
   common.add(DOMEFALL_VERSION).add(kPixelVersion).add(show.title).add(show.frames_per_second);
@@ -115,11 +124,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   add_effects(common, show.effects);
   add_disc(common, show.disc);
   add_gas(common, show);
-  for (const PatternKind& pattern : show.disc ? show.disc->patterns : std::vector<PatternKind>{})
-    if (const auto* map = std::get_if<MapPattern>(&pattern)) {
-      stamp(map->file);
-      common.add_file(map->file);
-    }
+  add_pattern_files(common);
   if (show.glare.share > 0) common.add("glare").add(show.glare.share).add(show.glare.sigma);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   for (const Body& body : show.bodies) {

@@ -45,6 +45,7 @@ class FrameKeys {
   void add_background(Digest& digest, const SkyBackground& background);
   void add_surface(Digest& digest, const Body& body);
   void add_sky(Digest& digest, const RegionSky& sky);
+  void add_pattern_files(Digest& digest);
   void add_segments();
   // Returns the key of what is seen while the shutter is open, without titles and overlays.
   std::string exposed(const FrameState& state) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/base/simd/dispatch.h"
+#include "pipeline/base/simd/lanes.h"
 #include "pipeline/base/simd/vector_math.h"
 
 namespace domefall {
@@ -152,7 +153,7 @@ class NoiseTile {
     std::uint32_t before = 0, first = 0;
     for (int k = 0; k < level.columns; ++k) {
       sum += kOne * values[k];
-      const auto until = static_cast<std::uint32_t>(sum + 0.5);
+      const auto until = static_cast<std::uint32_t>(std::lround(sum));
       if (k == 0) first = until;
       keep(k, until - before);
       before = until;

@@ -22,7 +22,7 @@ class PatternMaps : public TestFolder {
     for (int row = 0; row < height; ++row)
       for (int k = 0; k < width; ++k)
         for (int c = 0; c < 3; ++c) picture.row(row)[3 * k + c] = static_cast<float>(value(k, row));
-    const MapPattern map{folder_ / "map.exr", 0, 6, 20};
+    MapPattern map{folder_ / "map.exr", 0, 6, 20};
     write_frame(map.file, picture, {});
     return map;
   }
