@@ -218,7 +218,7 @@ TEST(GasRays, AreTheSumsOfSmallSteps) {
       const double off = std::abs(c.seen - c.summed) /
                          (c.summed + 0.01 * std::max(brightest, views[v].disc ? 1e-5 : 1e-2));
       errors.push_back(off);
-      EXPECT_LT(off, 1e-2) << "view " << v << ": " << c.seen << " instead of " << c.summed;
+      EXPECT_LT(off, 3e-2) << "view " << v << ": " << c.seen << " instead of " << c.summed;
     }
   }
   std::sort(errors.begin(), errors.end());
