@@ -62,12 +62,17 @@ std::array<float, 4> cubic_weights(double part) {
           (t3 - t2) / 2};
 }
 
-// Says whether the light of a pixel, times a weight, is no less than the least of the rays around it.
+// Says whether the light of a pixel, times a weight, is no less than the least of the rays around it,
+// nor small beside any that it is made of, whose places it would then have by cancellation.
 bool is_between(const std::array<float, 8>& block, const std::array<const float*, 16>& rays,
                 float weight) {
-  for (std::size_t c = 0; c < 3; ++c)
+  constexpr float kBrighter = 3;
+  for (std::size_t c = 0; c < 3; ++c) {
     if (block[c] < weight * std::min({rays[5][c], rays[6][c], rays[9][c], rays[10][c]}))
       return false;
+    for (const float* ray : rays)
+      if (weight * ray[c] > kBrighter * block[c]) return false;
+  }
   return true;
 }
 
@@ -165,9 +170,10 @@ void GasPass::find_widths(const Side& side) {
     return edge_ + side.sign * d_of(side.last * row / (side.rows - 1));
   };
   tbb::parallel_for(0, side.rows, [&](int row) {
+    // Next to the axis rays are so close that their differences would be those of rounding.
     const int above = std::max(row - 1, 0), below = std::min(row + 1, side.rows - 1);
     const double high = std::abs(alpha_at(below) - alpha_at(above)),
-                 wide = sin_cos(alpha_at(row)).sine * 4 * pi / columns_;
+                 wide = std::max(sin_cos(alpha_at(row)).sine, 0.5 / even_rows_) * 4 * pi / columns_;
     for (int column = 0; column < columns_; ++column)
       for (std::size_t look = 1; look < blocks_; ++look) {
         const Place here = place(row, column, look);
