@@ -66,7 +66,7 @@ std::array<float, 4> cubic_weights(double part) {
 // nor small beside any that it is made of, whose places it would then have by cancellation.
 bool is_between(const std::array<float, 8>& block, const std::array<const float*, 16>& rays,
                 float weight) {
-  constexpr float kBrighter = 3;
+  constexpr float kBrighter = 20;
   for (std::size_t c = 0; c < 3; ++c) {
     if (block[c] < weight * std::min({rays[5][c], rays[6][c], rays[9][c], rays[10][c]}))
       return false;
