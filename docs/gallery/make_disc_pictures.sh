@@ -18,39 +18,48 @@ strip() {
   oiiotool "${files[@]}" --mosaic 4x2 --compression jpeg:80 -o "docs/gallery/$name.jpg"
 }
 
+# Frames of a show, as they are on the dome.
+pictures() {
+  local show=$1 frame name
+  shift
+  "$domefall" render "shows/$show.yaml" --size 4k --frames "$(IFS=,; echo "$*")" --out "$out/4k_$show"
+  for frame in "$@"; do
+    printf -v name '%s_%05d' "$show" "$frame"
+    oiiotool "$out/4k_$show/graded/$name.png" --ch R,G,B --resize 700x700 --compression jpeg:84 \
+      -o "docs/gallery/$name.jpg"
+  done
+}
+
+# A picture on a flat screen, from r, of a show whose other sections come in.
+still() {
+  local name=$1 size=$2 fov=$3 r=$4
+  cat >"$out/$name.yaml.head" <<SHOW
+size: [$size]
+camera: {projection: rectilinear, fov_deg: $fov, look_at: hole}
+timeline:
+  - {duration_s: 1, trajectory: {type: static, r: $r}}
+SHOW
+  cat "$out/$name.yaml.head" - >"$out/$name.yaml"
+  "$domefall" render "$out/$name.yaml" --frames 0 --out "$out/$name"
+}
+
 mkdir -p "$out"
-frames=(70 653 1290 1650 1920)
-"$domefall" render shows/disc.yaml --size 4k --frames "$(IFS=,; echo "${frames[*]}")" --out "$out"
-for frame in "${frames[@]}"; do
-  printf -v name 'disc_%05d' "$frame"
-  oiiotool "$out/graded/$name.png" --ch R,G,B --resize 700x700 --compression jpeg:84 -o "docs/gallery/$name.jpg"
-done
-oiiotool "$out/graded/disc_00653.png" --ch R,G,B --cut 1000x700+1500+2400 --compression jpeg:84 \
+pictures disc 70 653 1290 1650 1920
+oiiotool "$out/4k_disc/graded/disc_00653.png" --ch R,G,B --cut 1000x700+1500+2400 --compression jpeg:84 \
   -o docs/gallery/disc_crop.jpg
 strip disc disc_plane 857 885 4
 strip disc disc_horizon 1740 1789 7
 
-frames=(1380 1950 3000 4020 4740)
-"$domefall" render shows/close_to_the_fire.yaml --size 4k --frames "$(IFS=,; echo "${frames[*]}")" --out "$out/fire"
-for frame in "${frames[@]}"; do
-  printf -v name 'close_to_the_fire_%05d' "$frame"
-  oiiotool "$out/fire/graded/$name.png" --ch R,G,B --resize 700x700 --compression jpeg:84 -o "docs/gallery/$name.jpg"
-done
+pictures close_to_the_fire 1380 1950 3000 4020 4740
 strip close_to_the_fire close_to_the_fire_sheet 450 4825 625
 strip close_to_the_fire close_to_the_fire_plane 1736 1792 8
 
 # A halo and jets around the hole alone.
 gas() {
-  local name=$1 gas=$2
-  cat >"$out/$name.yaml" <<SHOW
-size: [900, 700]
+  still "$1" '900, 700' 50 40 <<SHOW
 black_hole: {mass_solar: 6.5e9}
-$gas
-camera: {projection: rectilinear, fov_deg: 50, look_at: hole}
-timeline:
-  - {duration_s: 1, trajectory: {type: static, r: 40}}
+$2
 SHOW
-  "$domefall" render "$out/$name.yaml" --frames 0 --out "$out/$name"
 }
 gas halo 'halo: {inclination_deg: 70, t_k: 3500}'
 gas jet 'jet: {inclination_deg: 25, t_k: 9000}'
@@ -58,22 +67,16 @@ oiiotool "$out"/{halo/graded/halo,jet/graded/jet}_00000.png --mosaic 2x1 --ch R,
   --resize 1000x389 --compression jpeg:86 -o docs/gallery/disc_halo_jet.jpg
 
 # As the film's renderer had it, and with its shifts of frequency left out, as in the film.
-view() {
-  local name=$1 effects=$2
-  cat >"$out/$name.yaml" <<SHOW
-size: [1600, 800]
+film() {
+  still "$1" '1600, 800' 46 74.1 <<SHOW
 black_hole: {mass_solar: 1e8}
 disc: {inclination_deg: 3.44, inner_r: 9.26, outer_r: 18.7, t_max_k: 4500}
 exposure: {ev: -0.5}
 stars: {min_sigma_deg: 0.03}
-effects: $effects
-camera: {projection: rectilinear, fov_deg: 46, look_at: hole}
-timeline:
-  - {duration_s: 1, trajectory: {type: static, r: 74.1}}
+effects: $2
 SHOW
-  "$domefall" render "$out/$name.yaml" --frames 0 --out "$out/$name"
 }
-view film '{doppler_colour: false, intensity: false}'
-view whole '{}'
+film film '{doppler_colour: false, intensity: false}'
+film whole '{}'
 oiiotool "$out"/{film/graded/film,whole/graded/whole}_00000.png --mosaic 1x2 --ch R,G,B \
   --resize 1000x1000 --compression jpeg:86 -o docs/gallery/disc_dngr.jpg

@@ -1,4 +1,4 @@
-// Interpolation by polynomials through Chebyshev's nodes, and roots of smooth functions.
+// Interpolation by polynomials through Chebyshev's nodes.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace domefall {
 
-// Nodes of Chebyshev's on (-std::numbers::pi/2, std::numbers::pi/2), and Lagrange's weights of them at a place.
+// Chebyshev's nodes on (-pi/2, pi/2), and Lagrange's weights of them at a place.
 template <int n>
 struct Chebyshev {
   static double node(int k) {
@@ -32,22 +32,5 @@ struct Chebyshev {
     return w;
   }
 };
-
-// Returns the root of f between a, where f > 0, and b, where it is not, by the Illinois method, to a
-// part of that range.
-template <class F>
-double root_between(double a, double fa, double b, double fb, double part, const F& f) {
-  const double enough = part * std::abs(b - a);
-  for (int n = 0; n < 60 && std::abs(b - a) > enough; ++n) {
-    const double c = (a * fb - b * fa) / (fb - fa), fc = f(c);
-    if (fc == 0 || std::abs(c - a) < enough || std::abs(c - b) < enough) return c;
-    if ((fc > 0) == (fb > 0))
-      fa /= 2;
-    else
-      a = b, fa = fb;
-    b = c, fb = fc;
-  }
-  return b;
-}
 
 }  // namespace domefall

@@ -15,13 +15,7 @@ namespace {
 constexpr double kMostStep = 0.05, kMostChange = 0.08;
 constexpr double kMostTurn = 3.5 * std::numbers::pi;
 
-double lapse_squared(const PlaneView& view, double r) {
-  if (const auto* hole = std::get_if<ChargedHole>(&view.space.kind()))
-    return hole->lapse_squared(r);
-  return 1 - 2 / r;
-}
-
-// The law of the orbit, and what it needs for times.
+// The law of the orbit.
 class Orbit {
  public:
   explicit Orbit(const PlaneView& view) : straight_(view.straight) {
@@ -52,7 +46,7 @@ class Orbit {
 
 LightPath light_path(const PlaneView& view, double alpha, double outer) {
   const SineCosine half = sin_cos(alpha / 2);
-  const double w0 = 1 / view.at.r, f0 = lapse_squared(view, view.at.r);
+  const double w0 = 1 / view.at.r, f0 = view.lapse_squared();
   const bool outgoing = is_outgoing(view.tetrad) && !view.straight;
   const ViewEnergy law = view.energy();
   LightPath path;

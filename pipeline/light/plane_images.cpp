@@ -177,6 +177,11 @@ ViewEnergy PlaneView::energy() const {
   return {1 + Schwarzschild::free_fall_speed(at.r), Schwarzschild::below_light_speed(at)};
 }
 
+double PlaneView::lapse_squared() const {
+  if (const auto* hole = std::get_if<ChargedHole>(&space.kind())) return hole->lapse_squared(at.r);
+  return straight ? (at.r - 2) / at.r : 1 - 2 * (1 / at.r);
+}
+
 double PlaneView::tortoise() const {
   const auto* hole = std::get_if<ChargedHole>(&space.kind());
   return hole ? hole->tortoise(at.r) : Schwarzschild::tortoise(at);

@@ -28,7 +28,8 @@ struct PlaneView {
 
   // Returns the law of the energy, which is never straight light's.
   ViewEnergy energy() const;
-  double tortoise() const;  // r*
+  double tortoise() const;       // r*
+  double lapse_squared() const;  // f; the observer is outside where light is straight
 };
 
 class PlaneImages {

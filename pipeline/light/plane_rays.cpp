@@ -74,13 +74,6 @@ struct PlaneSight {
 }
 Dispatched<locate_on_plane_loop> locate_on_plane;
 
-// Returns f at the observer, who is outside where light is straight.
-double lapse_squared_at(const PlaneView& view) {
-  if (const auto* hole = std::get_if<ChargedHole>(&view.space.kind()))
-    return hole->lapse_squared(view.at.r);
-  return view.straight ? (view.at.r - 2) / view.at.r : 1 - 2 * (1 / view.at.r);
-}
-
 }  // namespace
 
 PlaneRays::PlaneRays(const PlaneView& view, double null_time, const PlaneRings& rings)
@@ -89,7 +82,7 @@ PlaneRays::PlaneRays(const PlaneView& view, double null_time, const PlaneRings& 
       r_(view.at.r),
       energy_(view.energy()),
       still_(straight_ ? StaticTime{} : view.space.static_time(r_)),
-      lapse_squared_(lapse_squared_at(view)),
+      lapse_squared_(view.lapse_squared()),
       // Straight light is labelled in the frame of the observer at rest, where alpha counts from the
       // hole and p = cos alpha/(r sin alpha).
       label_sign_(is_outgoing(view.tetrad) && !straight_ ? -1 : 1),

@@ -2,14 +2,30 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "pipeline/light/chebyshev.h"
 #include "pipeline/light/sphere_centre.h"
 
 namespace domefall {
 namespace {
+
+// Returns the root of f between a, where f > 0, and b, where it is not, to a part of that range.
+template <class F>
+double root_between(double a, double fa, double b, double fb, double part, const F& f) {
+  if (!(fa > 0)) return a;
+  if (!(fb < 0)) return b;
+  const double enough = part * std::abs(b - a);
+  if (a > b) std::swap(a, b), std::swap(fa, fb);
+  std::uintmax_t steps = 60;
+  const auto [from, to] = boost::math::tools::toms748_solve(
+      f, a, b, fa, fb, [enough](double x, double y) { return y - x < enough; }, steps);
+  return (from + to) / 2;
+}
 
 using std::numbers::pi;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/catmull_rom.h"
 #include "pipeline/base/simd/dispatch.h"
 #include "pipeline/base/simd/vector_math.h"
 #include "projections/pixel_directions.h"
@@ -53,19 +54,10 @@ struct GasGrid {
 }
 Dispatched<find_polar_loop> find_polar;
 
-// The weights of four values for a cubic through the middle two whose slopes there are those between
-// their neighbours.
-std::array<float, 4> cubic_weights(double part) {
-  const auto t = static_cast<float>(part);
-  const float t2 = t * t, t3 = t2 * t;
-  return {(2 * t2 - t3 - t) / 2, (3 * t3 - 5 * t2 + 2) / 2, (t + 4 * t2 - 3 * t3) / 2,
-          (t3 - t2) / 2};
-}
-
-// Says whether the light of a pixel, times a weight, is no less than the least of the rays around it,
-// nor small beside any that it is made of, whose places it would then have by cancellation.
-bool is_between(const std::array<float, 8>& block, const std::array<const float*, 16>& rays,
-                float weight) {
+// Says whether a cubic serves for the light of a pixel, times a weight.  Beside what is brighter by far
+// it falls below the rays around it, or has its place by cancellation.
+bool suits_cubic(const std::array<float, 8>& block, const std::array<const float*, 16>& rays,
+                 float weight) {
   constexpr float kBrighter = 20;
   for (std::size_t c = 0; c < 3; ++c) {
     if (block[c] < weight * std::min({rays[5][c], rays[6][c], rays[9][c], rays[10][c]}))
@@ -222,7 +214,8 @@ unsigned GasPass::add_values(const Side& side, double x, double azimuth, float w
     values[0][3] += weight;
     return 0;
   }
-  const std::array<float, 4> down = cubic_weights(row - i), on = cubic_weights(column - j);
+  const std::array<float, 4> down = catmull_rom(static_cast<float>(row - i)),
+                             on = catmull_rom(static_cast<float>(column - j));
   std::array<float, 16> weights;
   std::array<const Block*, 16> rays;
   for (std::size_t k = 0; k < 4; ++k)
@@ -239,8 +232,7 @@ unsigned GasPass::add_values(const Side& side, double x, double azimuth, float w
     for (std::size_t k = 0; k < from.size(); ++k) from[k] = rays[k][n].data();
     Block block{};
     add_blocks(from.data(), weights.data(), 16, block.data());
-    // Beside what is brighter by far a cubic falls below the rays around it.
-    if (!is_between(block, from, weight)) {
+    if (!suits_cubic(block, from, weight)) {
       block.fill(0);
       const std::array<const float*, 4> middle{from[5], from[6], from[9], from[10]};
       const auto on_part = static_cast<float>(column - j), down_part = static_cast<float>(row - i);

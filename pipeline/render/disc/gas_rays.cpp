@@ -109,11 +109,10 @@ int GasRays::steps_between(const LightPath::Place& a, const LightPath::Place& b,
   double longest = HUGE_VAL;
   if (halo_) longest = longest_step(*halo_, latitude(halo_normal_), length);
   if (jet_) longest = std::min(longest, longest_step(*jet_, latitude(jet_normal_), length));
-  if (disc_ && std::min(a.w, b.w) < 1 / disc_->inner) {
-    // The sine of a latitude changes by no more than the angle.
-    if (latitude(disc_normal_) < kHeights * disc_->height + length / 2)
-      longest = std::min(longest, disc_step_);
-  }
+  // The sine of a latitude changes by no more than the angle.
+  if (disc_ && std::min(a.w, b.w) < 1 / disc_->inner &&
+      latitude(disc_normal_) < kHeights * disc_->height + length / 2)
+    longest = std::min(longest, disc_step_);
   return static_cast<int>(std::ceil(length / longest));
 }
 

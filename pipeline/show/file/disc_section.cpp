@@ -112,16 +112,25 @@ std::optional<GasOrbits> orbits_of_gas(const Item& item, const Show& to) {
   return std::nullopt;
 }
 
-// Reads what a halo and a jet have in common.  Their axis is the disc's unless they have their own.
-template <class Gas>
-void read_thin_gas(const Section& s, const Item& item, const Show& to, Gas& gas) {
-  orbits_of_gas(item, to);
+// Reads a halo or a jet, by what is its own and by what they have in common.  Their axis is the disc's
+// unless they have their own.
+template <class Gas, class Own>
+std::optional<Gas> read_thin_gas(const Section& show, std::string_view key, const Show& to,
+                                 const Own& own) {
+  const Item* item = show.find(key);
+  if (item == nullptr) return std::nullopt;
+  const Section s(item, {key});
+  orbits_of_gas(*item, to);
   if (to.disc && !(to.disc->height > 0))
-    item.fail("needs a disc with a height, which it can shine through: give disc.height");
-  const bool own = s.find("inclination_deg") || s.find("node_deg");
-  gas.normal = to.disc && !own ? to.disc->normal : read_orbit_plane(s, to).normal;
+    item->fail("needs a disc with a height, which it can shine through: give disc.height");
+  Gas gas;
+  const bool tilted = s.find("inclination_deg") || s.find("node_deg");
+  gas.normal = to.disc && !tilted ? to.disc->normal : read_orbit_plane(s, to).normal;
+  gas.r = s.number("r");
   gas.luminance = s.number("luminance_cd_m2");
   gas.temperature = s.given("t_k");
+  own(s, gas);
+  return gas;
 }
 
 }  // namespace
@@ -163,24 +172,15 @@ std::optional<Disc> read_disc(const Section& show, const Show& to, const Lookup&
 }
 
 std::optional<Halo> read_halo(const Section& show, const Show& to) {
-  const Item* item = show.find("halo");
-  if (item == nullptr) return std::nullopt;
-  const Section s(item, {"halo"});
-  Halo halo;
-  halo.r = s.number("r"), halo.height = s.number("height");
-  read_thin_gas(s, *item, to, halo);
-  return halo;
+  return read_thin_gas<Halo>(
+      show, "halo", to, [](const Section& s, Halo& halo) { halo.height = s.number("height"); });
 }
 
 std::optional<Jet> read_jet(const Section& show, const Show& to) {
-  const Item* item = show.find("jet");
-  if (item == nullptr) return std::nullopt;
-  const Section s(item, {"jet"});
-  Jet jet;
-  jet.lorentz = s.number("lorentz_factor"), jet.opening = s.angle("opening_deg");
-  jet.r = s.number("r"), jet.length = s.number("length_r");
-  read_thin_gas(s, *item, to, jet);
-  return jet;
+  return read_thin_gas<Jet>(show, "jet", to, [](const Section& s, Jet& jet) {
+    jet.lorentz = s.number("lorentz_factor"), jet.opening = s.angle("opening_deg");
+    jet.length = s.number("length_r");
+  });
 }
 
 }  // namespace domefall

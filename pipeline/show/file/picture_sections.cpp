@@ -179,13 +179,14 @@ Exposure read_exposure(const Section& show, const Show& of) {
   const Section s(show.find("exposure"), {"exposure", "shutter"});
   s.one_of({"ev", "disc"});
   double ev = s.number("ev");
-  if (const auto value = s.given("disc")) {
+  const auto value = s.given("disc");
+  if (value && !of.disc) s.find("disc")->fail("needs a disc: give the show one");
+  if (value && of.disc) {
     constexpr double kMost = 30;
-    if (of.disc) ev = std::log2(*value * kReferenceLuminance / of.disc->luminance);
-    if (of.disc && ev > kMost)
+    ev = std::log2(*value * kReferenceLuminance / of.disc->luminance);
+    if (ev > kMost)
       s.find("disc")->fail(
           fmt::format("would need {:.3g} stops of exposure, and {} are the most", ev, kMost));
-    if (!of.disc) s.find("disc")->fail("needs a disc: give the show one");
   }
   // A film camera's shutter of 360 degrees is open from one frame to the next.
   return {ev, s.number("shutter_deg") / 360};

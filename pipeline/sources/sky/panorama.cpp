@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/catmull_rom.h"
 #include "pipeline/sources/sky/sky_pyramid.h"
 
 namespace domefall {
@@ -13,13 +14,6 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kLargestFaceOfImage = 4096;
-
-// Returns the Catmull-Rom weights of four samples, at t in [0, 1) between the second and the third.
-std::array<double, 4> catmull_rom(double t) {
-  const double t2 = t * t, t3 = t2 * t;
-  return {(-t3 + 2 * t2 - t) / 2, (3 * t3 - 5 * t2 + 2) / 2, (-3 * t3 + 4 * t2 + t) / 2,
-          (t3 - t2) / 2};
-}
 
 // Interpolates by cubics in an equirectangular image with its middle at +x, its left quarter at +y
 // and its top at +z.  A row beyond a pole is the row on the other side of the pole, turned by half
