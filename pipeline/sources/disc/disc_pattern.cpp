@@ -4,12 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "pipeline/base/simd/dispatch.h"
 #include "pipeline/base/simd/lanes.h"
 #include "pipeline/base/simd/vector_math.h"
+#include "pipeline/sources/disc/noise_tile.h"
 
 namespace domefall {
 namespace {
@@ -23,152 +23,6 @@ constexpr int kRows = 2, kGenerations = 2;
 // is even.
 constexpr double kEvenBelow = 2.0 / 3;
 constexpr std::size_t kPlacesAtOnce = 128;
-
-// This is the finaliser of MurmurHash3 (A. Appleby, public domain), in which each bit of the result
-// depends on each bit of x.
-[[gnu::always_inline]] inline std::uint32_t mixed(std::uint32_t x) {
-  x = (x ^ (x >> 16)) * 0x85ebca6bu;
-  x = (x ^ (x >> 13)) * 0xc2b2ae35u;
-  return x ^ (x >> 16);
-}
-
-[[gnu::always_inline]] inline std::uint32_t lattice_key(std::uint32_t a, std::uint32_t b) {
-  return mixed(a ^ (b * 0x9e3779b9u + 0x7f4a7c15u));
-}
-
-// ---- the noise ----
-
-// A NoiseTile is a picture of gas that nothing has drawn out yet, log-normal as simulations have it, with
-// structure of all sizes from a sixteenth of a turn down.  It repeats in ln r and around the ring.  Each
-// row has a mean of 1.  The levels i, j have the means over 2^i rows and 2^j columns, side by side and one
-// below the other.
-class NoiseTile {
- public:
-  static constexpr int kLogRows = 10, kLogColumns = 12, kTileRows = 1 << kLogRows,
-                       kTileColumns = 1 << kLogColumns;
-  static constexpr double kTexelsPerLog = 1600;  // rows for each unit of ln r
-  static constexpr float kOne = 512;             // of a texel
-
-  NoiseTile() {
-    Grid grid{.rows = kTileRows >> kOctaves, .columns = kTileColumns >> kOctaves};
-    grid.values.resize(static_cast<std::size_t>(grid.rows * grid.columns));
-    double part = 1;
-    for (std::uint32_t octave = 0; octave <= kOctaves; ++octave, part *= kFiner) {
-      if (octave > 0) grid = refined(grid);
-      for (std::size_t k = 0; k < grid.values.size(); ++k)
-        grid.values[k] += part * even(lattice_key(octave, static_cast<std::uint32_t>(k)));
-    }
-    make_light(grid);
-    for (int i = 0; i <= kLogRows; ++i) {
-      Grid level = grid;
-      for (int j = 0; j <= kLogColumns; ++j) {
-        for (int row = 0; row < level.rows; ++row) keep_row(level, i, j, row);
-        level = halved(level, 1, 2);
-      }
-      grid = halved(grid, 2, 1);
-    }
-  }
-
-  // A texel is two numbers of 16 bits, a row's and, above it, that of the row below.
-  const std::uint32_t* texels() const { return texels_.data(); }
-  // Returns the number of the first texel of a row of a level, and that of a column within a row.  One
-  // more column, the first one again, comes after the last.
-  [[gnu::always_inline]] static int row_at(int level, int row) {
-    return (2 * kTileRows - (2 * kTileRows >> level) + row) * kStride;
-  }
-  [[gnu::always_inline]] static int column_at(int level, int column) {
-    return 2 * kTileColumns - (2 * kTileColumns >> level) + level + column;
-  }
-
- private:
-  static constexpr int kOctaves = 8, kStride = 2 * kTileColumns + kLogColumns;
-  static constexpr double kFiner = 0.72;    // of an octave's amplitude against that before
-  static constexpr double kContrast = 2.4;  // the standard deviation of the logarithm
-  static constexpr double kBrightest = 60;
-  struct Grid {
-    int rows, columns;
-    std::vector<double> values{};
-  };
-
-  // From -1 to 1.
-  static double even(std::uint32_t key) {
-    return static_cast<double>(static_cast<int>(key >> 8)) * 0x1p-23 - 1;
-  }
-
-  // Returns a grid with twice as many rows and columns, by the subdivision of quadratic B-splines.
-  static Grid refined(const Grid& coarse) {
-    Grid fine{2 * coarse.rows, 2 * coarse.columns};
-    fine.values.reserve(4 * coarse.values.size());
-    const auto old = [&](int row, int column) {
-      return coarse.values[static_cast<std::size_t>((row & (coarse.rows - 1)) * coarse.columns +
-                                                    (column & (coarse.columns - 1)))];
-    };
-    for (int row = 0; row < fine.rows; ++row)
-      for (int column = 0; column < fine.columns; ++column) {
-        const int y = row / 2, x = column / 2, down = row % 2 ? 1 : -1, right = column % 2 ? 1 : -1;
-        fine.values.push_back(0.5625 * old(y, x) + 0.1875 * (old(y + down, x) + old(y, x + right)) +
-                              0.0625 * old(y + down, x + right));
-      }
-    return fine;
-  }
-
-  // Returns the means of so many rows and columns.
-  static Grid halved(const Grid& fine, int rows, int columns) {
-    Grid coarse{fine.rows / rows, fine.columns / columns};
-    coarse.values.reserve(fine.values.size() / 2);
-    for (int row = 0; row < coarse.rows; ++row)
-      for (int column = 0; column < coarse.columns; ++column) {
-        const auto at = static_cast<std::size_t>(row * rows * fine.columns + column * columns);
-        const auto next = at + static_cast<std::size_t>(rows > 1 ? fine.columns : 1);
-        coarse.values.push_back((fine.values[at] + fine.values[next]) / 2);
-      }
-    return coarse;
-  }
-
-  // Makes the noise log-normal, with a mean of 1 in each row.
-  static void make_light(Grid& noise) {
-    double sum = 0, squares = 0;
-    for (const double v : noise.values) sum += v, squares += v * v;
-    const auto count = static_cast<double>(noise.values.size());
-    const double mean = sum / count, deviation = std::sqrt(squares / count - mean * mean);
-    for (double& v : noise.values) v = exponential(kContrast * (v - mean) / deviation);
-    // What is brighter than this is taken for as bright, and its row made brighter for it.
-    for (const double brightest : {kBrightest, kBrightest, 1e9})
-      for (auto row = noise.values.begin(); row != noise.values.end(); row += kTileColumns) {
-        const double scale = kTileColumns / std::accumulate(row, row + kTileColumns, 0.0);
-        std::transform(row, row + kTileColumns, row,
-                       [&](double v) { return std::min(scale * v, brightest); });
-      }
-  }
-
-  // Rounds a row of a level so that its mean stays what it is.
-  void keep_row(const Grid& level, int i, int j, int row) {
-    const int above = (row + level.rows - 1) % level.rows;
-    const auto keep = [&](int column, std::uint32_t value) {
-      texels_[static_cast<std::size_t>(row_at(i, row) + column_at(j, column))] |= value;
-      texels_[static_cast<std::size_t>(row_at(i, above) + column_at(j, column))] |= value << 16;
-    };
-    const double* const values = &level.values[static_cast<std::size_t>(row * level.columns)];
-    double sum = 0;
-    std::uint32_t before = 0, first = 0;
-    for (int k = 0; k < level.columns; ++k) {
-      sum += kOne * values[k];
-      const auto until = static_cast<std::uint32_t>(std::lround(sum));
-      if (k == 0) first = until;
-      keep(k, until - before);
-      before = until;
-    }
-    keep(level.columns, first);
-  }
-
-  std::vector<std::uint32_t> texels_ =
-      std::vector<std::uint32_t>(std::size_t{2} * kTileRows * kStride);
-};
-
-const NoiseTile& noise_tile() {
-  static const NoiseTile tile;
-  return tile;
-}
 
 // ---- loops over places ----
 
