@@ -39,7 +39,7 @@ void add_effects(Digest& digest, const Effects& e) {
 void add_disc(Digest& digest, const std::optional<Disc>& disc) {
   if (!disc) return;
   // This is raised with every change that alters the pixels of discs alone.
-  constexpr int kDiscVersion = 4;
+  constexpr int kDiscVersion = 4, kSlabVersion = 2;
   digest.add("disc").add(kDiscVersion).add(disc->inner).add(disc->outer);
   // The axes come from sines, which differ between processors.  The other numbers stand in the
   // show.
@@ -47,7 +47,7 @@ void add_disc(Digest& digest, const std::optional<Disc>& disc) {
     for (const double v : {axis.x, axis.y, axis.z}) digest.add(rounded_for_key(v));
   digest.add(disc->t_max_k).add(disc->luminance).add(disc->opacity);
   if (!disc->is_opaque()) digest.add(disc->optical_depth).add(disc->rim);
-  if (disc->height > 0) digest.add("height").add(disc->height);
+  if (disc->height > 0) digest.add("height").add(kSlabVersion).add(disc->height);
   digest.add(disc->plunging ? "plunging" : "stable");
   // Without a pattern the disc looks the same at all times, and slow light changes nothing.
   if (disc->patterns.empty()) return;

@@ -138,10 +138,16 @@ GasRays::Layer GasRays::layer(const Ray& ray, const Step& step) const {
   if (halo_) add_thin(*halo_, halo_normal_, *halo_colour_);
   if (jet_) add_thin(*jet_, jet_normal_, *jet_colour_);
   if (!disc_ || step.r <= disc_->inner || step.r >= disc_->outer) return layer;
-  const double height = disc_->height_at(step.r), off = latitude(disc_normal_) / height;
+  const double s = latitude(disc_normal_), height = disc_->height_at(step.r), off = s / height;
   if (std::abs(off) > kHeights) return layer;
-  const double sent = disc_shift(orbits_, {energy, momentum, about(disc_normal_)}, step.r,
-                                 step.r < orbits_.last_stable() && step.outward);
+  const bool falls = step.r < orbits_.last_stable();
+  // r u^phi in the plane.  At a latitude its circle is smaller, and gas is slower against who rests.
+  const double turning =
+      falls ? orbits_.plunge_momentum() / step.r
+            : step.r * orbits_.circling(step.r) / std::sqrt(orbits_.slowing_squared(step.r));
+  const double sent =
+      disc_shift(orbits_, {energy, momentum, about(disc_normal_)}, step.r, falls && step.outward) /
+      std::sqrt(1 + s * s * turning * turning);
   const double thickness = std::sqrt(2 * pi) * height * step.r;
   layer.depth = static_cast<float>(std::min(depth_across(*disc_, step.r), 1e6) / thickness *
                                    exponential(-off * off / 2) * sent * way);

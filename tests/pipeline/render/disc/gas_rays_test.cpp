@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "pipeline/base/csv_file.h"
 #include "pipeline/render/disc/disc_pass.h"
 #include "pipeline/render/disc/gas_pass.h"
 #include "pipeline/sources/colour/blackbody.h"
@@ -14,6 +15,7 @@
 #include "tests/pipeline/render/disc/disc_views.h"
 #include "tests/pipeline/render/disc/reference_disc.h"
 #include "tests/sanitized.h"
+#include "tests/source_tree.h"
 
 namespace domefall {
 namespace {
@@ -135,7 +137,8 @@ class SummedGas {
     const double r = x.length();
     if (r <= disc.inner || r >= disc.outer) return;
     const double omega = std::sqrt(r - charge_ * charge_) / (r * r);
-    const double ut = 1 / std::sqrt(1 - 3 / r + 2 * charge_ * charge_ / (r * r));
+    const double around = omega * omega * r * r * (1 - s * s);
+    const double ut = 1 / std::sqrt(1 - 2 / r + charge_ * charge_ / (r * r) - around);
     const double sent = product(ut, normal_.cross(x) * (omega * ut));
     const double height = disc.height * std::pow(r / disc.outer, 0.125);
     const auto thinned = [](double t) { return t < 1 ? t * t * t * (10 - 15 * t + 6 * t * t) : 1; };
@@ -260,6 +263,40 @@ TEST(GasRays, OfNoHeightAreTheDisc) {
     }
     EXPECT_GT(lit, 2);
   }
+}
+
+// Another program for the same physics (tests/reference/gyoto_gas.csv).  Its observer rests at r = 10,000.
+TEST(GyotoGas, IsTheSame) {
+  for (const std::string kind : {"halo", "slab"})
+    for (const double inclination : {45.0, 80.0}) {
+      GasCase view{{{Region::kI, Tetrad::kRain, 1e4, celerity_of_rest(1e4)},
+                    normal_seen_from(90 - inclination),
+                    slab(0.1)}};
+      // So hot that light goes with the temperature.
+      view.at.disc.t_max_k = 1e9;
+      view.disc = kind == "slab";
+      if (!view.disc) view.halo = Halo{.r = 6, .height = 0.3, .luminance = 1};
+      const GasScene gas(gas_show(view, Stereographic{20, 20, 0.3 * kDegree}));
+      const GasRays rays(gas.scene);
+      std::vector<double> seen, truth;
+      CsvFile rows(source_file("tests/reference/gyoto_gas.csv"));
+      while (rows.next()) {
+        if (rows.text("kind") != kind || rows.number("inclination_deg") != inclination) continue;
+        const double right = rows.number("right"), up = rows.number("up");
+        const V3d n(-std::sqrt(1 - right * right - up * up), -up, right);
+        seen.push_back(luminance_of(
+            gas.seen(rays, {apply_transposed(gas.state.observer.tetrad_from_camera, n)}).light));
+        truth.push_back(rows.number("light"));
+      }
+      ASSERT_EQ(seen.size(), 400u);
+      const double brightest = *std::max_element(seen.begin(), seen.end());
+      std::vector<double> errors;
+      for (std::size_t k = 0; k < seen.size(); ++k)
+        errors.push_back(std::abs(seen[k] / brightest - truth[k]) / (truth[k] + 0.01));
+      std::sort(errors.begin(), errors.end());
+      EXPECT_LT(errors[errors.size() / 2], 3e-4) << kind << " " << inclination;
+      EXPECT_LT(errors.back(), 2e-3) << kind << " " << inclination;
+    }
 }
 
 // Pixels take the light of the rays in their middles, where it is smooth.
