@@ -371,7 +371,8 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
     if (flat || (scene.disc && (!scene.bodies.empty() || !image.mattes.empty())))
       disc.emplace(scene);
     std::optional<GasPass> gas;
-    if (scene.plan.gas) gas.emplace(scene);
+    if (scene.plan.gas) gas.emplace(scene, memory_->bands.stop);
+    memory_->bands.throw_if_stopped();
     times.disc_s = watch.lap();
     const DiscPass* const disc_or_none = disc ? &*disc : nullptr;
     std::optional<BodyLayers> bodies;

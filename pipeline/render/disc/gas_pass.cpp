@@ -70,7 +70,7 @@ bool suits_cubic(const std::array<float, 8>& block, const std::array<const float
 
 }  // namespace
 
-GasPass::GasPass(const FrameScene& scene)
+GasPass::GasPass(const FrameScene& scene, const std::atomic<bool>* stop)
     : rays_(scene),
       exposure_(scene.exposure),
       edge_(rays_.view().edge.value_or(0)),
@@ -93,7 +93,10 @@ GasPass::GasPass(const FrameScene& scene)
   grid_.resize(rays * blocks_);
   lit_.assign(rays, 0);
   for (const Side& side : sides_) {
-    tbb::parallel_for(0, side.rows, [&](int row) { follow_row(side, row); });
+    tbb::parallel_for(0, side.rows, [&](int row) {
+      if (!stop || !*stop) follow_row(side, row);
+    });
+    if (stop && *stop) return;
     if (rays_.has_pattern()) find_widths(side);
   }
   mark_lit();

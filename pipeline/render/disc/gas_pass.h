@@ -11,6 +11,7 @@
 // slopes go on from cell to cell.  What a pattern makes of a disc's light is found at each pixel.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,8 @@ namespace domefall {
 class GasPass {
  public:
   // The scene must outlive this pass, whose rays are followed by all threads of the arena that calls.
-  explicit GasPass(const FrameScene& scene);
+  // Once `stop` is set they are followed no further, and nothing may be drawn.
+  explicit GasPass(const FrameScene& scene, const std::atomic<bool>* stop = nullptr);
 
   // As DiscPass::draw_rows.
   void draw_rows(int first, int end, float* rgb, float* left = nullptr) const;
