@@ -145,12 +145,14 @@ void CsvFile::read_header(const std::vector<std::string_view>& needed, const Csv
   rest_ = header, line_number_ = line;
   separator_ = first->separator_;
   columns_ = first->columns_;
+  written_ = first->written_;
 }
 
 std::string CsvFile::read_names(char separator) {
   separator_ = separator;
   std::string complaint = split();
   columns_.clear();
+  written_.assign(cells_.begin(), cells_.end());
   for (const std::string_view name : cells_) columns_.push_back(in_lower_case(name));
   below_header_ = true;
   return complaint;
@@ -289,6 +291,10 @@ bool CsvFile::has(std::string_view column) const {
 std::string_view CsvFile::cell(std::string_view column) const {
   const auto at = std::ranges::find(columns_, column);
   return at == columns_.end() ? "" : cells_[static_cast<std::size_t>(at - columns_.begin())];
+}
+
+bool CsvFile::has_as_written(std::string_view column) const {
+  return std::ranges::find(written_, column) != written_.end();
 }
 
 std::string_view CsvFile::text(std::string_view column) const {

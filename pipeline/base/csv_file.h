@@ -30,6 +30,8 @@ class CsvFile {
   ~CsvFile() = default;
 
   bool has(std::string_view column) const;
+  // The same in these cases of letters: k is not K.
+  bool has_as_written(std::string_view column) const;
   // Reads a row, which must be as long as the header.  Returns false at the end of the file.
   bool next();
 
@@ -72,6 +74,7 @@ class CsvFile {
   mutable char decimal_sign_ = 0;        // of the numbers so far
   bool below_header_ = false;            // units and a rule may follow
   std::vector<std::string> columns_;     // in lower case
+  std::vector<std::string> written_;     // as in the header
   std::vector<std::string_view> cells_;  // into bytes_ or unquoted_
   std::deque<std::string> unquoted_;     // the row's cells that differ from its bytes
 };

@@ -8,7 +8,6 @@ right "$rays" spin,charge,r,delta,edge,offset,origin,beyond,turns \
   x=1e-10~ y=1e-10~ z=1e-10~ one_plus_z=1e-11 mino=1e-11 amplification=1e-7
 
 columns=spin,charge,r,theta,delta,eta,edge,offset
-refused '0.1,0.5,5,1,1,0,,' 'spin must be 0'
 refused '0,-1,5,1,1,0,,' 'charge must be from 0 to 100'
 refused '0,0.5,1e-6,1,1,0,,' 'r must be from 0.000133974596 to 1e12'
 refused '0,1,1,1,1,0,,' 'r must not be that of the inner horizon'
@@ -19,4 +18,4 @@ refused '0,1.2,5,1,,0,silhouette,0' 'there is no edge silhouette at this r'
 refused '0,0.5,5,1,,0,rim,0' 'edge must be silhouette, inner, region3 or empty'
 refused '0,0.5,5,1,1,0,,1e-3' 'offset is given without an edge'
 exits 2 "$DOMEFALL" trace --table "$rays" --method rk4
-says 'rays near a charge are traced by the exact integral'
+says 'rays near a charge or a spinning hole are traced by the exact integral'

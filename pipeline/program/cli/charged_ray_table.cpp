@@ -12,6 +12,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/light/ray_request.h"
 #include "pipeline/light/traced_charge.h"
+#include "pipeline/program/cli/kerr_ray_table.h"
 #include "trajectories/directions.h"
 
 namespace domefall {
@@ -20,6 +21,19 @@ namespace {
 using std::numbers::pi;
 
 constexpr std::array kInput{"spin", "charge", "r", "theta", "delta", "eta", "edge", "offset"};
+
+constexpr const char* kRayColumns =
+    "origin,beyond,theta_sky,phi_sky,x,y,z,one_plus_z,amplification,turns,mino";
+constexpr const char* kPassageColumns =
+    "k,r_there,phi_there,null_time,outgoing,shift_pro,shift_retro,flux_pro,flux_retro";
+
+// Throws InputError for what is no number of a passage.
+int passage_number(const std::string& text) {
+  const long double k = decimal_number(text, "k");
+  if (!(k >= 0 && k <= 1000 && k == std::floor(k)))
+    throw InputError(fmt::format("k must be a whole number from 0 to 1000, got '{}'", text));
+  return static_cast<int>(k);
+}
 
 struct AskedRay {
   ChargedRequest request;
@@ -30,7 +44,6 @@ struct AskedRay {
 AskedRay ray_of(const CsvFile& rows) {
   const auto text = [&](const char* column) { return std::string(rows.text(column)); };
   const auto number = [&](const char* column) { return decimal_number(text(column), column); };
-  if (number("spin") != 0) throw InputError(fmt::format("spin must be 0, got '{}'", text("spin")));
   const auto theta = static_cast<double>(number("theta"));
   if (!(theta >= 0 && theta <= pi))
     throw InputError(fmt::format("theta must be from 0 to pi, got {}", theta));
@@ -111,18 +124,31 @@ bool is_charged_ray_table(const CsvFile& rows) { return rows.has("spin") && rows
 
 void trace_charged_rays(const std::string& file) {
   CsvFile rows(file, {"spin", "charge", "r", "theta", "delta", "eta"});
+  const bool passages = rows.has_as_written("k");  // K is a constant of rays
   for (const char* column : kInput) fmt::print("{},", column);
-  fmt::print("origin,beyond,theta_sky,phi_sky,x,y,z,one_plus_z,amplification,turns,mino\n");
+  fmt::print("{}\n", passages ? kPassageColumns : kRayColumns);
   while (rows.next()) {
-    std::optional<AskedRay> asked;
+    std::optional<AskedRay> charged;
+    std::optional<AskedKerrRay> spinning;
+    int k = 0;
     try {
-      asked = ray_of(rows);
+      if (passages) k = passage_number(std::string(rows.text("k")));
+      const bool spins = decimal_number(std::string(rows.text("spin")), "spin") != 0;
+      if (spins || passages)
+        spinning = asked_kerr_ray(rows);
+      else
+        charged = ray_of(rows);
     } catch (const InputError& error) {
       rows.fail(error.what());
     }
     for (const char* column : kInput)
       fmt::print("{}{}", column == kInput.front() ? "" : ",", rows.text(column));
-    print_answer(*asked);
+    if (passages)
+      fmt::print(",{}", k), print_kerr_passage(*spinning, k);
+    else if (spinning)
+      print_kerr_ray(*spinning);
+    else
+      print_answer(*charged);
   }
 }
 

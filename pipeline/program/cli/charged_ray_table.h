@@ -1,4 +1,5 @@
-// The rays near a charge that `domefall trace --table` is given, and what it answers.
+// The rays near a charge or a spinning hole that `domefall trace --table` is given, and what it answers.
+// With a column k the answer is the k-th passage of the equatorial plane.
 #pragma once
 
 #include <string>

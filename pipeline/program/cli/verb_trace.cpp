@@ -97,7 +97,9 @@ void print_cell(double value) {
 void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
   if (is_charged_ray_table(CsvFile(file))) {
     if (is_integrator(method))
-      throw InputError("rays near a charge are traced by the exact integral, not by an integrator");
+      throw InputError(
+          "rays near a charge or a spinning hole are traced by the exact integral, not by an "
+          "integrator");
     trace_charged_rays(file);
     return;
   }
@@ -132,7 +134,8 @@ void add_trace(CLI::App& app) {
   auto options = std::make_shared<TraceOptions>();
   add_file(*verb, "--table", *table,
            "CSV with the columns observer, r, delta and perhaps edge, offset, psi; near a "
-           "charge spin, charge, r, theta, delta, eta and perhaps edge, offset")
+           "charge or a spinning hole spin, charge, r, theta, delta, eta and perhaps edge, "
+           "offset, and k for the k-th passage of the equatorial plane")
       ->required();
   verb->add_option("--method", *method,
                    "table (what renders frames), exact, or an integrator: rk4 (the paper's own), "

@@ -1,0 +1,145 @@
+#include "pipeline/light/kerr_ray.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/light/kerr_path.h"
+#include "pipeline/light/kerr_sphere.h"
+
+namespace domefall {
+namespace {
+
+template <class T>
+T dual_number(long double v, long double by_delta = 0, long double by_eta = 0) {
+  if constexpr (std::is_same_v<T, Dual>)
+    return {static_cast<double>(v), static_cast<double>(by_delta), static_cast<double>(by_eta)};
+  else
+    return static_cast<double>(v);
+}
+
+// Returns N and its equation at the observer, back in time.
+template <class T>
+KerrSphere<T> sphere_of(const KerrStart& start) {
+  const long double a = start.at.hole.spin;
+  const long double sine = std::sin(start.at.theta), cosine = std::cos(start.at.theta);
+  const Scaled &k = start.kappa, &mu = start.mu, &p = start.polar, &f = start.azimuthal;
+  KerrSphere<T> sphere{};
+  sphere.spin = static_cast<double>(a);
+  const auto derivative = [&](long double Scaled::*by) { return 2 * (k.v * (k.*by) + (mu.*by)); };
+  sphere.c = dual_number<T>(k.v * k.v + 2 * mu.v + a * a * (sine - cosine) * (sine + cosine),
+                            derivative(&Scaled::by_delta), derivative(&Scaled::by_eta));
+  sphere.place = {dual_number<T>(sine), dual_number<T>(0), dual_number<T>(cosine)};
+  sphere.speed = {dual_number<T>(-cosine * p.v, -cosine * p.by_delta, -cosine * p.by_eta),
+                  dual_number<T>(-f.v, -f.by_delta, -f.by_eta),
+                  dual_number<T>(sine * p.v, sine * p.by_delta, sine * p.by_eta)};
+  return sphere;
+}
+
+template <class T>
+void follow_to_sky(const KerrStart& start, const KerrRoots& roots, TracedKerr& out) {
+  const KerrPath<T> path(start, roots);
+  const typename KerrPath<T>::Sum whole = path.whole();
+  KerrSphere<T> sphere = sphere_of<T>(start);
+  sphere.follow(value(whole.mino), false);
+  out.mino = value(whole.mino) / std::abs(out.energy);
+  out.turns = sphere.turns;
+  const V3d n(value(sphere.place[0]), value(sphere.place[1]), value(sphere.place[2]));
+  double angle = value(whole.angle);
+  if (start.mirrored) angle = -angle - static_cast<double>(2 * start.at.hole.twist(start.at.r));
+  const double c = std::cos(angle), s = std::sin(angle), y = start.mirrored ? -n.y : n.y;
+  out.sky = V3d(n.x * c - y * s, n.x * s + y * c, n.z);
+  if constexpr (std::is_same_v<T, Dual>) {
+    const V3d speed(sphere.speed[0].v, sphere.speed[1].v, sphere.speed[2].v);
+    const V3d about(-n.y, n.x, 0);
+    const auto change = [&](double Dual::*by) {
+      const V3d own(sphere.place[0].*by, sphere.place[1].*by, sphere.place[2].*by);
+      return own + speed * (whole.mino.*by) + about * (whole.angle.*by);
+    };
+    out.amplification = 1 / std::abs(n.dot(change(&Dual::d).cross(change(&Dual::e))));
+  }
+}
+
+// Takes as the second direction, instead of that of eta, nearly the one along the edge.  Next to an edge
+// the sky changes much and alike in any other two.
+void turn_along_edge(KerrStart& start, KerrRoots& roots) {
+  const auto change = [&](long double Scaled::*by) {
+    return 2 * roots.b1.v * (roots.b1.*by) - 4 * (roots.b0.*by);
+  };
+  constexpr long double kMost = 10;
+  const long double ratio =
+      std::clamp(-change(&Scaled::by_eta) / change(&Scaled::by_delta), -kMost, kMost);
+  if (!(std::abs(ratio) <= kMost)) return;
+  for (Scaled* s : {&start.kappa, &start.mu, &start.speed, &start.polar, &start.azimuthal,
+                    &roots.b1, &roots.b0, &roots.e1, &roots.e0})
+    s->by_eta += ratio * s->by_delta;
+}
+
+template <class T>
+TracedKerr trace_with(const KerrPlace& at, const KerrDirection& direction) {
+  KerrStart start = kerr_start(at, direction);
+  TracedKerr out{};
+  out.origin = start.origin;
+  out.energy = static_cast<double>(start.energy);
+  if (start.origin == KerrOrigin::kPastHorizon) return out;
+  KerrRoots roots = kerr_roots(start);
+  if constexpr (std::is_same_v<T, Dual>) turn_along_edge(start, roots);
+  follow_to_sky<T>(start, roots, out);
+  return out;
+}
+
+}  // namespace
+
+TracedKerr trace_kerr(const KerrPlace& at, const KerrDirection& direction) {
+  return trace_with<Dual>(at, direction);
+}
+
+TracedKerr trace_kerr_without_area(const KerrPlace& at, const KerrDirection& direction) {
+  return trace_with<double>(at, direction);
+}
+
+std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection& direction) {
+  const KerrStart start = kerr_start(at, direction);
+  const KerrPath<double> path(start, kerr_roots(start));
+  KerrSphere<double> sphere = sphere_of<double>(start);
+  const double whole = path.mino_between(path.first(), path.last());
+  sphere.follow(whole, true);
+  const double sign = start.mirrored ? -1 : 1, energy = static_cast<double>(start.energy);
+  const double a = static_cast<double>(at.hole.spin),
+               sine = static_cast<double>(std::sin(at.theta));
+  const double side = static_cast<double>(start.mu.v) + sign * a * a * sine * sine;  // aL/|E|
+  std::vector<KerrPassage> passages;
+  double y = path.first(), mino = 0;
+  for (const auto& crossing : sphere.crossings) {
+    for (int i = 0; i < 60; ++i) {
+      const double step = (crossing.mino - mino) / path.place(y).by_y;
+      const double next = std::clamp(y + step, path.first(), (y + 7 * path.last()) / 8);
+      mino += path.mino_between(y, next);
+      const bool there = std::abs(next - y) <= 1e-15 * std::max(1.0, std::abs(next));
+      y = next;
+      if (there) break;
+    }
+    const KerrPath<double>::Sum sum = path.between(path.first(), y, sign);
+    const auto place = path.place(y);
+    const double across = sign * std::atan2(crossing.place[1], crossing.place[0]);
+    KerrPassage passage{};
+    passage.r = place.r;
+    passage.outgoing = place.speed > 0;
+    passage.phi = std::remainder(sum.angle + across, 2 * M_PI);
+    passage.null_time =
+        sum.time - side * crossing.mino + sign * a * a * (crossing.mino - crossing.squares);
+    passage.energy = energy;
+    const double y_term = static_cast<double>(start.kappa.v * std::sin(direction.eta));
+    passage.angular_momentum = std::abs(energy) * sine * (y_term + sign * a * sine);
+    passages.push_back(passage);
+  }
+  return passages;
+}
+
+std::optional<double> circling_shift(const KerrHole& hole, const KerrPassage& at, bool prograde) {
+  const std::optional<KerrCircle> circle = kerr_circle(hole, at.r, prograde);
+  if (!circle) return std::nullopt;
+  return std::abs(circle->time * at.energy - circle->angle * at.angular_momentum);
+}
+
+}  // namespace domefall

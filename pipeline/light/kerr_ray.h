@@ -1,0 +1,42 @@
+// trace_kerr() gives one ray near a spinning hole by numbers, for an observer who moves as the tetrad T
+// (kerr_start.h).  docs/kerr.md says what is computed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pipeline/light/kerr_start.h"
+#include "trajectories/directions.h"
+
+namespace domefall {
+
+struct TracedKerr {
+  KerrOrigin origin;
+  double energy;  // signed; its absolute value is emitted / observed frequency
+  double delta;
+  // The rest is for light of a sky.
+  V3d sky;               // unit vector to where it comes from, with the hole's axis as z
+  double amplification;  // solid angle seen over solid angle on the sky
+  int turns;             // how often cos(theta) was extreme on the way
+  double mino;           // Mino time to the sky
+};
+TracedKerr trace_kerr(const KerrPlace& at, const KerrDirection& direction);
+// This leaves the amplification out, which takes two thirds of the time.
+TracedKerr trace_kerr_without_area(const KerrPlace& at, const KerrDirection& direction);
+
+// A KerrPassage is where a ray crosses the equatorial plane.
+struct KerrPassage {
+  double r;
+  double phi;        // in the coordinates of light that falls, less the observer's, -pi to pi
+  double null_time;  // v there, less the observer's
+  bool outgoing;     // whether the photon moves outwards there
+  double energy, angular_momentum;
+};
+// Returns them as they follow each other back in time, as far as the past horizon.
+std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection& direction);
+
+// Returns 1 + z of light that matter on a free circle emits at a passage, or nothing where there is no
+// such circle.
+std::optional<double> circling_shift(const KerrHole& hole, const KerrPassage& at, bool prograde);
+
+}  // namespace domefall

@@ -1,0 +1,40 @@
+// The angular part of a ray near a spinning hole: its place is N turned by psi about the hole's axis,
+// where the unit vector N obeys, over Mino's time with E = 1,
+//
+//     N'' = -(C + 2 a^2 N_z^2) N + a^2 N_z z
+//
+// which has no axis.  N is followed by its Taylor series.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "pipeline/light/dual.h"
+
+namespace domefall {
+
+template <class T>
+struct KerrSphere {
+  double spin;
+  T c;                            // C
+  std::array<T, 3> place, speed;  // N and N'
+
+  // How often N_z was extreme, and where N crossed the equator.
+  struct Crossing {
+    double mino;
+    std::array<double, 3> place;
+    double squares;  // the integral of N_z^2 until then
+  };
+
+  int turns = 0;
+  std::vector<Crossing> crossings;
+  double squares = 0;
+
+  // Follows N over a Mino time, which is exact for its value only.
+  void follow(double mino, bool with_crossings);
+};
+
+extern template struct KerrSphere<double>;
+extern template struct KerrSphere<Dual>;
+
+}  // namespace domefall

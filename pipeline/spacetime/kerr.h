@@ -1,0 +1,52 @@
+// The spacetime of a spinning hole, Kerr's, or Kerr's and Newman's where it is charged, in units of its
+// mass, M = c = G = 1:
+//
+//     Sigma = r^2 + a^2 cos^2 theta        Delta = r^2 - 2r + a^2 + q^2 = (r - r_+)(r - r_-)
+//
+// The spin a turns the hole towards growing phi.  a^2 + q^2 <= 1, so that there are two horizons r_+-
+// = 1 +- d, d = sqrt(1 - a^2 - q^2).  Constants are kept to more digits than a double has: the marks of
+// a hole that spins nearly as fast as it can lie closer together than doubles tell.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+namespace domefall {
+
+struct KerrHole {
+  long double spin = 0, charge = 0;
+
+  // Returns d, half of r_+ - r_-.
+  long double horizon_distance() const {
+    const long double square = (1 - spin) * (1 + spin) - charge * charge;
+    return square > 0 ? std::sqrt(square) : 0;
+  }
+  long double horizon() const { return 1 + horizon_distance(); }
+  long double inner_horizon() const { return squares() / horizon(); }
+  long double squares() const { return spin * spin + charge * charge; }
+  long double delta(long double r) const {
+    const long double d = horizon_distance();
+    return ((r - 1) - d) * ((r - 1) + d);
+  }
+  // Returns r#, by which the angle of light that rises, phi - r#, and of light that falls, phi + r#,
+  // differ from phi.  It is 0 at infinity, and infinite on the horizons.
+  long double twist(long double r) const;
+};
+
+// A KerrCircle is a free circular orbit in the equatorial plane.  Bodies on it that go around with the
+// hole's spin are prograde.
+struct KerrCircle {
+  double time, angle;  // u^t, and u^phi of either sign
+};
+// Returns nothing at and within the circle of light, where no such orbit is.
+std::optional<KerrCircle> kerr_circle(const KerrHole& hole, double r, bool prograde);
+
+// Returns r of the last stable circle.
+double last_stable_circle(const KerrHole& hole, bool prograde);
+
+// Returns the flux of a thin disc without a torque at the last stable circle, after Page & Thorne (ApJ
+// 191, 499), in units of the accretion rate/(4 pi) per M^2, and 0 within that circle.  The hole must
+// have no charge.
+double page_thorne_flux(const KerrHole& hole, double r, bool prograde);
+
+}  // namespace domefall
