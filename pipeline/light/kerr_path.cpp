@@ -38,9 +38,9 @@ Scaled root(const Scaled& a) {
   return chain(a, f, 1 / (2 * f));
 }
 
-// Returns the distance to the line from 0 to `end`.
-double far_from_way(Complex z, double end) {
-  return std::hypot(z.real() - std::clamp(z.real(), 0.0, end), z.imag());
+// Returns the distance to the line between two real numbers.
+double far_from_way(Complex z, double low, double high) {
+  return std::hypot(z.real() - std::clamp(z.real(), low, high), z.imag());
 }
 
 // Returns the two w = 1/r of rho^2 + b1 rho + b0 = 0, with rho = r - x.
@@ -81,28 +81,42 @@ void KerrPath<T>::set_shape(const KerrStart& start, const KerrRoots& roots) {
   const Scaled product = Scaled{x * x} + (-x) * roots.b1 + roots.b0;  // of the pair's two radii
   const auto [pair, other] = inverse_radii(x, roots.b1.v, roots.b0.v);
   const auto [third, fourth] = inverse_radii(x, roots.e1.v, roots.e0.v);
-  const bool straight = to_sky_ && start.speed.v < 0;
-  const double near = std::min(far_from_way(pair, seen), far_from_way(other, seen));
+  const auto outer = static_cast<double>(1 / start.at.hole.horizon());
+  direction_ = start.speed.v < 0 ? 1 : -1;
+  const bool straight = disc < 0 || (to_sky_ && start.speed.v < 0);
+  const double low = to_sky_ ? 0 : std::min(seen, outer), high = to_sky_ ? seen : outer;
+  const double near = std::min(far_from_way(pair, low, high), far_from_way(other, low, high));
   const double apart = std::min({std::abs(pair - third), std::abs(pair - fourth)});
   const bool inside = start.at.delta() <= 0;
   const auto inner = static_cast<double>(1 / start.at.hole.inner_horizon());
-  if (straight && (near > 0.4 * seen || apart < 0.5 * near)) {
+  if (roots.alike || (straight && (near > 0.4 * (high - low) || apart < 0.5 * near))) {
     shape_ = Shape::kPlain;
-    first_ = -seen;
-    last_ = 0;
-    singular_ = {-pair, -other, -third, -fourth};
-    of_mino_ = singular_.size();
-    if (inside) singular_.push_back(-inner);
-    of_angle_ = singular_.size();
-    singular_.push_back(0);
-    return;
+    first_ = -direction_ * seen;
+    last_ = to_sky_ ? 0 : -direction_ * outer;
+  } else {
+    set_map(start, roots, product);
   }
+  for (const Complex w : {third, fourth}) add_singular(w);
+  if (shape_ == Shape::kPlain)
+    for (const Complex w : {pair, other}) add_singular(w);
+  of_mino_ = singular_.size();
+  if (inside || !to_sky_) add_singular(inner);
+  if (!to_sky_) add_singular(outer);
+  of_angle_ = singular_.size();
+  add_singular(0);
+  if (shape_ != Shape::kPlain) set_ends(start);
+}
+
+// Takes the first pair of roots out.
+template <class T>
+void KerrPath<T>::set_map(const KerrStart& start, const KerrRoots& roots, const Scaled& product) {
+  const long double x = start.edge.x, disc = roots.discriminant();
   const Scaled gap =
       chain(roots.b1 * roots.b1 + (-4) * roots.b0, std::abs(disc), disc > 0 ? 1 : -1);
   const Scaled spread = root(gap) * inverse(product);  // w2 - w1, or twice the imaginary part
   root_ = as_number<T>(root(product));
   if (disc > 0) {
-    const bool outer = to_sky_ || seen < (pair.real() + other.real()) / 2;
+    const bool outer = to_sky_;
     shape_ = outer ? Shape::kOuter : Shape::kInner;
     const Scaled rho = 0.5L * ((-1) * roots.b1 + (outer ? 1 : -1) * root(gap));
     gap_ = as_number<T>(spread);
@@ -112,29 +126,26 @@ void KerrPath<T>::set_shape(const KerrStart& start, const KerrRoots& roots) {
     shape_ = Shape::kComplex;
     gap_ = as_number<T>(0.5L * spread);
     w1_ = as_number<T>((Scaled{2 * x} + (-1) * roots.b1) * inverse(2 * product));
-    direction_ = to_sky_ || start.speed.v < 0 ? 1 : -1;
     // w_c - w at the observer, without a difference of what is equal there.
     const long double rho = start.edge.rho;
     const Scaled ahead = Scaled{2 * x * rho} + (x - rho) * roots.b1 + (-2) * roots.b0;
     last_start_ = as_number<T>((ahead * inverse(2 * start.at.r * product)));
   }
-  for (const Complex w : {third, fourth}) add_singular(w);
-  of_mino_ = singular_.size();
-  if (inside || !to_sky_) add_singular(inner);
-  if (!to_sky_) add_singular(static_cast<double>(1 / start.at.hole.horizon()));
-  of_angle_ = singular_.size();
-  add_singular(0);
-  set_ends(start);
 }
 
 // Adds the places y of a w at which an integrand is singular.
 template <class T>
 void KerrPath<T>::add_singular(Complex w) {
+  if (!(std::abs(w) < 1e100)) return;  // at r = 0
+  if (shape_ == Shape::kPlain) {
+    singular_.push_back(-direction_ * w);
+    return;
+  }
   const double w1 = value(w1_), gap = value(gap_);
   const bool complex = shape_ == Shape::kComplex;
   const Complex sinh =
       complex ? (w1 - w) / gap : std::sqrt((shape_ == Shape::kOuter ? w1 - w : w - w1) / gap);
-  const Complex y = direction_ * std::asinh(sinh);
+  const Complex y = (complex ? direction_ : 1.0) * std::asinh(sinh);
   singular_.insert(singular_.end(), {y, std::conj(y)});
   if (!complex) singular_.insert(singular_.end(), {-y, -std::conj(y)});
 }
@@ -162,12 +173,12 @@ template <class T>
 typename KerrPath<T>::Node KerrPath<T>::node(double y) const {
   Node out;
   if (shape_ == Shape::kPlain) {
-    const double w = -y, w2 = w * w;
+    const double w = -direction_ * y, w2 = w * w;
     out.w = w;
     out.p = 1 + (sigma_ - mu_) * w2;
     out.delta = 1 - 2 * w + squares_ * w2;
     const T root = sqrt(out.p * out.p - kappa2_ * w2 * out.delta);
-    out.speed = -root;
+    out.speed = -direction_ * root;
     out.mino = 1 / root;
     return out;
   }
@@ -219,7 +230,7 @@ template <class Add>
 void KerrPath<T>::over_panels(double from, double to, std::size_t singular, const Add& add) const {
   using Gauss = boost::math::quadrature::gauss<double, 20>;
   constexpr double kEllipse = 2.4, kSpan = (kEllipse + 1 / kEllipse) / 2, kLongest = 1.5;
-  const double sign = to < from ? -1 : 1;
+  const double sign = to < from ? -1 : 1, shortest = 1e-10 * std::abs(to - from);
   double at = from;
   while (sign * (to - at) > 0) {
     double end = to;
@@ -233,7 +244,7 @@ void KerrPath<T>::over_panels(double from, double to, std::size_t singular, cons
                    kSpan * length;
           });
     };
-    for (int i = 0; i < 40 && !fits(); ++i) end = at + (end - at) / 2;
+    while (!fits() && std::abs(end - at) > shortest) end = at + (end - at) / 2;
     const double middle = (at + end) / 2, half = (end - at) / 2;
     for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
       const double step = half * Gauss::abscissa()[i], weight = half * Gauss::weights()[i];

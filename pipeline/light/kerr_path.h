@@ -20,6 +20,8 @@ namespace domefall {
 // The first pair of roots has the larger real part.
 struct KerrRoots {
   Scaled b1, b0, e1, e0;
+  // For a small kappa there are two like pairs, which are not told apart; the factors are nearly those.
+  bool alike = false;
 
   long double discriminant() const { return b1.v * b1.v - 4 * b0.v; }
 };
@@ -60,6 +62,7 @@ class KerrPath {
   };
 
   void set_shape(const KerrStart& start, const KerrRoots& roots);
+  void set_map(const KerrStart& start, const KerrRoots& roots, const Scaled& product);
   void set_ends(const KerrStart& start);
   void add_singular(std::complex<double> w);
   Node node(double y) const;

@@ -119,6 +119,7 @@ std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection&
       y = next;
       if (there) break;
     }
+    if (y >= path.last()) break;  // on the past horizon, to the last digit
     const KerrPath<double>::Sum sum = path.between(path.first(), y, sign);
     const auto place = path.place(y);
     const double across = sign * std::atan2(crossing.place[1], crossing.place[0]);

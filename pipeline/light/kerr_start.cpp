@@ -16,10 +16,6 @@ using Long = long double;
 // with x - 1 = sqrt(Delta + d^2), where `s` is a sin(theta) sin(eta).
 Long circling_root(const KerrPlace& at, Long s) {
   const Long d = at.hole.horizon_distance(), sigma = at.sigma();
-  if (d == 0) {  // x = 1, or x^2 + sigma = 2x (t + s)
-    const Long g = 1 - s;
-    return std::max(Long{0}, g + std::sqrt(g * g + sigma) - 1);
-  }
   Long low = 0, high = std::sqrt(8 + at.hole.squares()), t = std::min(high, 2 - s);
   for (int i = 0; i < 100; ++i) {
     const Long h = std::hypot(t, d), x = 1 + h, slope = t / h;
@@ -104,8 +100,7 @@ CriticalRay critical_ray(const KerrPlace& at, Long eta, KerrEdge edge) {
   out.root = circling_root(at, s);
   out.above_one = std::hypot(out.root, d);
   const Long x = out.x = 1 + out.above_one;
-  const Long cosine =
-      d > 0 ? out.root / out.above_one : (x * x + at.sigma()) / (2 * x * (out.root + s));
+  const Long cosine = out.root / out.above_one;
   out.kappa = 2 * x * cosine;
   out.curvature = 4 * x * (out.above_one + (1 - cosine) * (1 + cosine));
   out.rho = (at.r - 1) - out.above_one;

@@ -8,7 +8,6 @@ namespace domefall {
 
 long double KerrHole::twist(long double r) const {
   const long double d = horizon_distance(), above_inner = (r - 1) + d;
-  if (d == 0) return -spin / (r - 1);
   // ln|(r - r_+)/(r - r_-)|/(2d), which tends to -1/(r - r_-) as the horizons become one.
   const long double x = 2 * d / above_inner;
   const long double log = x < 0.5L ? std::log1p(-x) : std::log(std::abs((r - 1) - d) / above_inner);

@@ -16,10 +16,11 @@ namespace domefall {
 struct KerrHole {
   long double spin = 0, charge = 0;
 
-  // Returns d, half of r_+ - r_-.
+  // Returns d, half of r_+ - r_-.  That of an extremal hole, 0, is taken as 1e-9, as a spin gives that
+  // differs from it in the last digit.
   long double horizon_distance() const {
     const long double square = (1 - spin) * (1 + spin) - charge * charge;
-    return square > 0 ? std::sqrt(square) : 0;
+    return square > 1e-18L ? std::sqrt(square) : 1e-9L;
   }
   long double horizon() const { return 1 + horizon_distance(); }
   long double inner_horizon() const { return squares() / horizon(); }
