@@ -77,7 +77,7 @@ KerrPath<T>::KerrPath(const KerrStart& start, const KerrRoots& roots)
 template <class T>
 void KerrPath<T>::set_shape(const KerrStart& start, const KerrRoots& roots) {
   const long double x = start.edge.x, disc = roots.discriminant();
-  const double seen = static_cast<double>(1 / start.at.r);
+  const auto seen = static_cast<double>(1 / start.at.r);
   const Scaled product = Scaled{x * x} + (-x) * roots.b1 + roots.b0;  // of the pair's two radii
   const auto [pair, other] = inverse_radii(x, roots.b1.v, roots.b0.v);
   const auto [third, fourth] = inverse_radii(x, roots.e1.v, roots.e0.v);
@@ -152,7 +152,7 @@ void KerrPath<T>::add_singular(Complex w) {
 
 template <class T>
 void KerrPath<T>::set_ends(const KerrStart& start) {
-  const double r = static_cast<double>(start.at.r);
+  const auto r = static_cast<double>(start.at.r);
   const double outer = 1 / static_cast<double>(start.at.hole.horizon());
   if (shape_ == Shape::kComplex) {
     first_ = direction_ * asinh(last_start_ / gap_);
@@ -160,7 +160,7 @@ void KerrPath<T>::set_ends(const KerrStart& start) {
     return;
   }
   // r'/r^2 = -+ sqrt(product) gap sinh(2y)/2 sqrt(S/r^2), which is smooth where r' = 0.
-  const double rho = static_cast<double>(start.edge.rho);
+  const auto rho = static_cast<double>(start.edge.rho);
   const T s = (rho * rho + e1_ * rho + e0_) / (r * r);
   const T speed = as_number<T>(start.speed) / (r * r);
   const double sign = shape_ == Shape::kOuter ? -1 : 1;

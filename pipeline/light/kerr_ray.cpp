@@ -105,8 +105,7 @@ std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection&
   const double whole = path.mino_between(path.first(), path.last());
   sphere.follow(whole, true);
   const double sign = start.mirrored ? -1 : 1, energy = static_cast<double>(start.energy);
-  const double a = static_cast<double>(at.hole.spin),
-               sine = static_cast<double>(std::sin(at.theta));
+  const auto a = static_cast<double>(at.hole.spin), sine = static_cast<double>(std::sin(at.theta));
   const double side = static_cast<double>(start.mu.v) + sign * a * a * sine * sine;  // aL/|E|
   std::vector<KerrPassage> passages;
   double y = path.first(), mino = 0;
@@ -130,7 +129,7 @@ std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection&
     passage.null_time =
         sum.time - side * crossing.mino + sign * a * a * (crossing.mino - crossing.squares);
     passage.energy = energy;
-    const double y_term = static_cast<double>(start.kappa.v * std::sin(direction.eta));
+    const auto y_term = static_cast<double>(start.kappa.v * std::sin(direction.eta));
     passage.angular_momentum = std::abs(energy) * sine * (y_term + sign * a * sine);
     passages.push_back(passage);
   }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_dec_float.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "pipeline/base/errors.h"
@@ -17,14 +19,14 @@ double rounded(long double x) { return static_cast<double>(x); }
 
 }  // namespace
 
-KerrPlace kerr_place(long double spin, long double charge, long double r, long double theta) {
+KerrPlace kerr_place(const KerrHole& hole, long double r, long double theta) {
   // NaN passes none of these comparisons.
-  if (!(charge >= 0))
-    throw InputError(fmt::format("charge must be at least 0, got {}", rounded(charge)));
-  const KerrPlace place{{spin, charge}, r, std::min(theta, kHalfTurn)};
-  if (!(place.hole.squares() <= 1 + 1e-18L))
+  if (!(hole.charge >= 0))
+    throw InputError(fmt::format("charge must be at least 0, got {}", rounded(hole.charge)));
+  const KerrPlace place{hole, r, std::min(theta, kHalfTurn)};
+  if (!(hole.squares() <= 1 + 1e-18L))
     throw InputError(fmt::format("spin^2 + charge^2 must be at most 1, got spin {} and charge {}",
-                                 rounded(spin), rounded(charge)));
+                                 rounded(hole.spin), rounded(hole.charge)));
   const long double inner = place.hole.inner_horizon();
   if (!(r > inner && r <= 1e12L))
     throw InputError(
@@ -34,6 +36,12 @@ KerrPlace kerr_place(long double spin, long double charge, long double r, long d
   if (!(theta >= 0 && theta <= kHalfTurn * (1 + 1e-12L)))
     throw InputError(fmt::format("theta must be from 0 to pi, got {}", rounded(theta)));
   return place;
+}
+
+long double lost_digits(const std::string& text) {
+  using Decimal = boost::multiprecision::cpp_dec_float_50;
+  const Decimal rounded(std::strtold(text.c_str(), nullptr));
+  return static_cast<long double>(Decimal(Decimal(text) - rounded));
 }
 
 KerrDirection kerr_direction(long double delta, long double eta) {

@@ -15,8 +15,8 @@ long double KerrHole::twist(long double r) const {
 }
 
 std::optional<KerrCircle> kerr_circle(const KerrHole& hole, double r, bool prograde) {
-  const double a = static_cast<double>(prograde ? hole.spin : -hole.spin);
-  const double q2 = static_cast<double>(hole.charge * hole.charge);
+  const auto a = static_cast<double>(prograde ? hole.spin : -hole.spin);
+  const auto q2 = static_cast<double>(hole.charge * hole.charge);
   if (r <= q2) return std::nullopt;
   const double w = std::sqrt(r - q2), square = r * r - 3 * r + 2 * q2 + 2 * a * w;
   // Within both circles of light the square may be positive again, where no orbit is.
@@ -26,8 +26,8 @@ std::optional<KerrCircle> kerr_circle(const KerrHole& hole, double r, bool progr
 }
 
 double last_stable_circle(const KerrHole& hole, bool prograde) {
-  const double a = static_cast<double>(prograde ? hole.spin : -hole.spin);
-  const double q2 = static_cast<double>(hole.charge * hole.charge);
+  const auto a = static_cast<double>(prograde ? hole.spin : -hole.spin);
+  const auto q2 = static_cast<double>(hole.charge * hole.charge);
   const auto stable = [&](double r) {
     const double w = std::sqrt(r - q2);
     return r * (6 * r - r * r - 9 * q2 + 3 * a * a) + 4 * q2 * (q2 - a * a) - 8 * a * w * w * w;
@@ -49,7 +49,7 @@ double last_stable_circle(const KerrHole& hole, bool prograde) {
 
 double page_thorne_flux(const KerrHole& hole, double r, bool prograde) {
   constexpr double kThird = std::numbers::pi / 3;
-  const double a = static_cast<double>(prograde ? hole.spin : -hole.spin);
+  const auto a = static_cast<double>(prograde ? hole.spin : -hole.spin);
   const double first = last_stable_circle(hole, prograde);
   if (r <= first) return 0;
   const double y = std::sqrt(r), y0 = std::sqrt(first), angle = std::acos(a) / 3;

@@ -15,11 +15,12 @@ namespace domefall {
 
 struct KerrHole {
   long double spin = 0, charge = 0;
+  long double spin_rest = 0;  // what the spin has beyond its rounding; for 1e-14 of d at 1 - a = 1e-6
 
   // Returns d, half of r_+ - r_-.  That of an extremal hole, 0, is taken as 1e-9, as a spin gives that
   // differs from it in the last digit.
   long double horizon_distance() const {
-    const long double square = (1 - spin) * (1 + spin) - charge * charge;
+    const long double square = ((1 - spin) - spin_rest) * (1 + spin) - charge * charge;
     return square > 1e-18L ? std::sqrt(square) : 1e-9L;
   }
   long double horizon() const { return 1 + horizon_distance(); }

@@ -16,8 +16,8 @@ namespace domefall {
 AskedKerrRay asked_kerr_ray(const CsvFile& row) {
   const auto text = [&](const char* column) { return std::string(row.text(column)); };
   const auto number = [&](const char* column) { return decimal_number(text(column), column); };
-  AskedKerrRay asked{kerr_place(number("spin"), number("charge"), number("r"), number("theta")),
-                     {}};
+  const KerrHole hole{number("spin"), number("charge"), lost_digits(text("spin"))};
+  AskedKerrRay asked{kerr_place(hole, number("r"), number("theta")), {}};
   const std::string edge = text("edge");
   if (edge.empty()) {
     if (!text("offset").empty()) throw InputError("offset is given without an edge");

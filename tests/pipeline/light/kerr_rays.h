@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/light/kerr_request.h"
 #include "pipeline/light/kerr_start.h"
 #include "tests/source_tree.h"
 
@@ -24,7 +25,10 @@ struct KerrReference {
   }
   double number(const std::string& column) const { return static_cast<double>(exact(column)); }
 
-  KerrPlace at() const { return {{exact("spin"), exact("charge")}, exact("r"), exact("theta")}; }
+  KerrPlace at() const {
+    return {
+        {exact("spin"), exact("charge"), lost_digits(text("spin"))}, exact("r"), exact("theta")};
+  }
   KerrDirection direction() const {
     KerrDirection out{exact("delta"), exact("eta"), {}, 0};
     if (!cells.contains("edge") || !has("edge")) return out;
