@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 namespace domefall {
 namespace {
@@ -11,24 +11,32 @@ using Long = long double;
 
 // Returns sqrt Delta(x) of light that circles, from
 //
-//     (x^2 + a^2 cos^2 theta)(x - 1) - 2x Delta(x) = 2 s x sqrt Delta(x)
+//     (x^2 + sigma)(x - 1) - 2x Delta(x) = 2 s x sqrt Delta(x)
 //
-// with x - 1 = sqrt(Delta + d^2), where `s` is a sin(theta) sin(eta).
-Long circling_root(const KerrPlace& at, Long s) {
-  const Long d = at.hole.horizon_distance(), sigma = at.sigma();
-  Long low = 0, high = std::sqrt(8 + at.hole.squares()), t = std::min(high, 2 - s);
+// with x - 1 = sqrt(Delta + d^2), sigma = a^2 cos^2(theta) and s = a sin(theta) sin(eta).
+template <class Real>
+Real circling_root(Real sigma, Real d, Real s, Real guess) {
+  Real low = 0, high = 3, t = guess;
   for (int i = 0; i < 100; ++i) {
-    const Long h = std::hypot(t, d), x = 1 + h, slope = t / h;
-    const Long f = (x * x + sigma) * h - 2 * x * t * (t + s);
-    const Long df = slope * (2 * x * h + x * x + sigma - 2 * t * (t + s)) - 2 * x * (2 * t + s);
+    const Real h = std::sqrt(t * t + d * d), x = 1 + h;
+    const Real f = (x * x + sigma) * h - 2 * x * t * (t + s);
+    const Real df = t / h * (2 * x * h + x * x + sigma - 2 * t * (t + s)) - 2 * x * (2 * t + s);
     (f > 0 ? low : high) = t;
-    Long next = t - f / df;
+    Real next = t - f / df;
     if (!(next >= low && next <= high)) next = (low + high) / 2;
-    const Long step = std::abs(next - t);
+    const Real step = std::abs(next - t);
     t = next;
-    if (step <= 1e-17L * t) break;
+    if (step <= 4 * std::numeric_limits<Real>::epsilon() * t) break;
   }
   return t;
+}
+
+// The same, found in double first, which is quicker.
+Long circling_root(const KerrPlace& at, Long s) {
+  const Long d = at.hole.horizon_distance(), sigma = at.sigma();
+  const auto near = circling_root<double>(static_cast<double>(sigma), static_cast<double>(d),
+                                          static_cast<double>(s), 1.7);
+  return circling_root<Long>(sigma, d, s, near);
 }
 
 // Sine and cosine of delta/2, and their distance from an edge.

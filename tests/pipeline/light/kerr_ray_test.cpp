@@ -218,7 +218,9 @@ TEST(KerrEdge, CirclesOnTheEquatorAreKnown) {
 TEST(KerrEdge, IsBetweenTheSkiesAndTheDark) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 300; ++i) {
-    const auto [at, direction] = random_ray(random);
+    const RandomRay ray = random_ray(random);
+    const KerrPlace& at = ray.at;
+    const KerrDirection& direction = ray.direction;
     const auto origin = [&](KerrEdge edge, double offset) {
       return trace_kerr_without_area(at, {0, direction.eta, edge, offset}).origin;
     };
