@@ -13,7 +13,6 @@ namespace domefall {
 struct TracedKerr {
   KerrOrigin origin;
   double energy;  // signed; its absolute value is emitted / observed frequency
-  double delta;
   // The rest is for light of a sky.
   V3d sky;               // unit vector to where it comes from, with the hole's axis as z
   double amplification;  // solid angle seen over solid angle on the sky
@@ -21,7 +20,7 @@ struct TracedKerr {
   double mino;           // Mino time to the sky
 };
 TracedKerr trace_kerr(const KerrPlace& at, const KerrDirection& direction);
-// This leaves the amplification out, which takes two thirds of the time.
+// This leaves the amplification out, which takes two fifths of the time.
 TracedKerr trace_kerr_without_area(const KerrPlace& at, const KerrDirection& direction);
 
 // A KerrPassage is where a ray crosses the equatorial plane.

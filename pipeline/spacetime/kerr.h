@@ -15,7 +15,8 @@ namespace domefall {
 
 struct KerrHole {
   long double spin = 0, charge = 0;
-  long double spin_rest = 0;  // what the spin has beyond its rounding; for 1e-14 of d at 1 - a = 1e-6
+  // What the spin's decimals have beyond its rounding: 1e-14 of d where 1 - a = 1e-6.
+  long double spin_rest = 0;
 
   // Returns d, half of r_+ - r_-.  That of an extremal hole, 0, is taken as 1e-9, as a spin gives that
   // differs from it in the last digit.
