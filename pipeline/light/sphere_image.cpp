@@ -72,20 +72,25 @@ class Sphere {
   V3d direction(double azimuth, double angle) const {
     return e(azimuth) * std::sin(angle) - V3d(std::cos(angle), 0, 0);
   }
-  // Returns the part of a chord between two shares of its half from its middle.
-  SpherePiece piece(double azimuth, double from, double to) const {
+  // Returns the distance from the middle of the disc to that of a chord, in radii.
+  double off(double azimuth) const { return beside(azimuth) / radius_; }
+  // Returns the part of a chord between two shares of its half from its middle.  `footprint` is how
+  // much of the disc is seen within the spacing of pieces, in radii.
+  SpherePiece piece(double azimuth, double from, double to, double footprint) const {
     const V3d across = e(azimuth), towards = leaving_in(image_, across);
     // The disc is seen along b1, and the plane of the chord is at right angles to m.
     V3d m = contracted(V3d(1, 0, 0).cross(across));
     m = (m - towards * m.dot(towards)).normalized();
-    const double h = beside(azimuth) / radius_, c = std::sqrt(std::max(0.0, (1 - h) * (1 + h))),
+    const double h = off(azimuth), c = std::sqrt(std::max(0.0, (1 - h) * (1 + h))),
                  s = (from + to) / 2, up = std::sqrt((1 - s) * (1 + s));
     const auto area = [](double x) {
       return (x * std::sqrt((1 - x) * (1 + x)) + std::asin(x)) / 2;
     };
+    const double cosine = c * (area(to) - area(from)) / (to - from);
     return {{{direction(azimuth, middle(azimuth) + half(azimuth) * s)}, 1 / emitted(across), 0},
-            c * (area(to) - area(from)) / (to - from),
-            m * h + (towards * up + m.cross(towards) * s) * c};
+            cosine,
+            m * h + (towards * up + m.cross(towards) * s) * c,
+            footprint / cosine};
   }
 
  private:
@@ -149,11 +154,15 @@ std::vector<SpherePiece> image_of_sphere(const BodyImage& image, double radius,
   const int chords = count_of(pi * sphere.widest() * girth, spacing(image.direction), kChords);
   std::vector<SpherePiece> pieces;
   for (int k = 0; k < chords; ++k) {
-    const auto tau = [&](double share) { return pi * (share / chords - 0.5); };
-    const double width = sphere.azimuth(tau(k + 1)) - sphere.azimuth(tau(k));
-    const double azimuth = sphere.azimuth(tau(k + 0.5));
+    const auto at = [&](double share) { return sphere.azimuth(pi * (share / chords - 0.5)); };
+    const double first = at(k), last = at(k + 1), width = last - first, azimuth = at(k + 0.5);
     const double middle = sphere.middle(azimuth), half = sphere.half(azimuth);
-    const int parts = count_of(2 * half, spacing(sphere.direction(azimuth, middle)), 1);
+    const double apart = spacing(sphere.direction(azimuth, middle)),
+                 thick = width * std::abs(std::sin(middle)),
+                 footprint =
+                     apart * std::max(std::abs(sphere.off(last) - sphere.off(first)) / thick,
+                                      1 / sphere.half_length());
+    const int parts = count_of(2 * half, apart, 1);
     for (int j = 0; j < parts; ++j) {
       const double from = 2.0 * j / parts - 1, to = 2.0 * (j + 1) / parts - 1;
       const auto area = [&](double share) {
@@ -161,7 +170,7 @@ std::vector<SpherePiece> image_of_sphere(const BodyImage& image, double radius,
       };
       const double solid_angle = width * (area(to) - area(from));
       if (!(solid_angle > 0)) continue;
-      pieces.push_back(sphere.piece(azimuth, from, to));
+      pieces.push_back(sphere.piece(azimuth, from, to, footprint));
       pieces.back().at.amplification = solid_angle;
     }
   }

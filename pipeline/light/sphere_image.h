@@ -18,12 +18,21 @@ namespace domefall {
 // Returns the longer of the sizes of the image along and across its plane, in radians.
 double size_of_sphere(const BodyImage& image, double radius);
 
+// A RingCrossing is where light from a sphere goes through one of its rings.
+struct RingCrossing {
+  int ring = -1;         // none
+  double steepness = 1;  // cosine of the angle between the light and the ring's axis
+};
+
 // A SpherePiece is a piece of the image, which has its solid angle in the tetrad in place of the
 // amplification, and its own frequency ratio.
 struct SpherePiece {
   SkyImage at;
   double cosine;  // of the angle at which its light left the surface
   V3d place;      // on the sphere: unit, along the axes of the tetrad, in the body's own frame
+  double width =
+      0;  // of what is seen of the sphere within the spacing, where it is widest, in radii
+  RingCrossing through{};
 };
 
 // Returns the direction in which light left the body, in its own frame, that came in the plane of R

@@ -6,101 +6,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipeline/light/exact_azimuth.h"
-#include "pipeline/light/ray_times.h"
 #include "tests/pipeline/light/resting_body.h"
+#include "tests/pipeline/light/sphere_scene.h"
 
 namespace domefall {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double kPixel = pi / 4096;  // of a dome of 4096 pixels
-
-// On a circular orbit, at the azimuth phi when v = 0.
-BodyMotion circling(double r, double phi) {
-  const double s = std::sqrt(2 / r), around = 1 / std::sqrt(r - 3),
-               gamma = std::sqrt((1 + around * around) / (1 - s * s));
-  return {[=](double tau) {
-            const double angle = phi + tau * around / r;
-            return BodyPoint{V3d(std::cos(angle), std::sin(angle), 0),
-                             r,
-                             tau / std::sqrt(1 - 3 / r),
-                             gamma,
-                             gamma * s,
-                             V3d(0, 0, r * around)};
-          },
-          -HUGE_VAL, HUGE_VAL};
-}
-
-// v - T within a slice of the rain, in closed form.
-double slice(double r) { return r - 2 * std::sqrt(2 * r) + 4 * std::log(1 + std::sqrt(r / 2)); }
-
-// A Scene traces rays to a sphere by steps along them.
-struct Scene {
-  double observer;
-  BodyMotion motion;
-  double radius;
-
-  // Returns q/a of the place v, X, which is beyond 1 outside the sphere.
-  V3d on_sphere(double v, double r, const V3d& x) const {
-    // T grows with tau at a steady rate on these orbits.
-    const auto time = [&](double tau) {
-      const BodyPoint body = motion.at(tau);
-      return body.null_time - slice(body.r);
-    };
-    const double tau = (v - slice(r) - time(0)) / (time(1) - time(0));
-    const BodyPoint body = motion.at(tau);
-    const V3d u = body.celerity(), d = x - body.direction * body.r;
-    return (d + u * (u.dot(d) / (body.gamma + 1))) / radius;
-  }
-
-  // Finds where the ray at this angle from the hole is first within the sphere, for psi in a range;
-  // `depth` is the least |q/a|.
-  bool meets(const V3d& e, double alpha, double from, double to, V3d* first = nullptr) const {
-    constexpr int kSteps = 2000;
-    const NullRay ray = ray_at(Radius(observer), alpha, {false, false});
-    RayOrbits orbits;
-    orbits.set(ray.at, false, {&ray.sin_half, &ray.cos_half, &ray.gap_first, &ray.gap_second}, 1);
-    const RayTimes times(orbits);
-    const auto q = [&](double psi) {
-      RayPlaces places;
-      orbits.find(&psi, places);
-      const double r = places.r[0];
-      if (!(r > 2 && r < 1e9)) return V3d(1e9, 0, 0);
-      double v = 0;
-      times.find(&psi, places, &v);
-      return on_sphere(v, r, (V3d(std::cos(psi), 0, 0) + e * std::sin(psi)) * r);
-    };
-    double least = HUGE_VAL, at = from;
-    // Rays that are nearly radial sweep little.
-    to = std::min(to, exact_azimuth(ray));
-    const double step = (to - from) / kSteps;
-    for (int k = 0; k <= kSteps; ++k) {
-      const double psi = from + step * k, depth = q(psi).length();
-      if (depth < least) least = depth, at = psi;
-      if (depth < 1) break;
-    }
-    double low = at - step, high = least < 1 ? at : at + step;
-    if (least >= 1) {  // a minimum between steps
-      for (int n = 0; n < 60; ++n) {
-        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-        (q(a).length() < q(b).length() ? high : low) = q(a).length() < q(b).length() ? b : a;
-      }
-      at = (low + high) / 2;
-      if (!(q(at).length() < 1)) return false;
-      low = at - step, high = at;
-    }
-    for (int n = 0; first && n < 60; ++n) {
-      const double middle = (low + high) / 2;
-      (q(middle).length() < 1 ? high : low) = middle;
-    }
-    if (first) *first = q(high);
-    return true;
-  }
-};
-
-void expect_traced(const Scene& scene, int order, double least_size) {
+void expect_traced(const SphereScene& scene, int order, double least_size) {
   SCOPED_TRACE(testing::Message() << scene.observer << " " << scene.radius << " " << order);
   const PlaceView view{scene.observer, false, false};
   const auto image = image_of_body(view, 0, scene.motion, order, scene.radius);
