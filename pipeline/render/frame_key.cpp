@@ -20,7 +20,7 @@ namespace {
 
 // The versions are raised with every change that alters a pixel, so that older frames are made
 // again.  That of bodies counts for shows with bodies only.
-constexpr int kPixelVersion = 10, kBodiesVersion = 4;
+constexpr int kPixelVersion = 10, kBodiesVersion = 5;
 
 // Adds a law.  Settings that came after the first version are added only where they are in use, so
 // that other shows keep their keys.
@@ -62,6 +62,11 @@ void FrameKeys::add_surface(Digest& digest, const Body& body) {
   if (!body.texture.empty()) {
     stamp(body.texture);
     digest.add("texture").add(sky_digest(body.texture));
+  }
+  if (body.tilt != 0) digest.add("tilt").add(body.tilt);
+  for (const BodyRing& ring : body.rings) {
+    digest.add("ring").add(ring.inner).add(ring.outer).add(ring.opacity);
+    for (const float c : {ring.colour.r, ring.colour.g, ring.colour.b}) digest.add(double(c));
   }
   if (!body.lit_from) return;
   digest.add("lit").add(static_cast<int>(body.lit_from->index()));
@@ -138,7 +143,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
       common.add(rounded_for_key(x));
     for (const double x :
          {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
-          body.temperature, body.magnitude, body.radius})
+          body.temperature, body.magnitude, body.radius, body.granulation})
       common.add(x);
     add_surface(common, body);
   }

@@ -37,6 +37,12 @@ double last_proper_time(const Spacetime& spacetime, const Body& body) {
 
 }  // namespace
 
+M33d own_axes(const Body& body) {
+  const V3d &node = body.node.v, &normal = body.normal.v;
+  const double c = std::cos(body.tilt), s = std::sin(body.tilt);
+  return from_columns(node * c - normal * s, normal.cross(node), normal * c + node * s);
+}
+
 bool sees_bodies(const ObserverState& observer) {
   return !is_flat(observer) && !is_mirrored(observer.tetrad) && observer.region != Region::kIV;
 }

@@ -6,9 +6,11 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "pipeline/light/body_image.h"
 #include "pipeline/show/placement.h"
+#include "pipeline/sources/colour/colour_space.h"
 #include "trajectories/directions.h"
 #include "trajectories/observer_state.h"
 #include "trajectories/trajectory.h"
@@ -20,6 +22,14 @@ struct Body;
 // is about the hole.
 struct LitFromHole {};
 using BodyLamp = std::variant<SkyDirection, std::shared_ptr<const Body>, LitFromHole>;
+
+// A BodyRing is one of the flat rings about a sphere: where it begins and ends, in radii of the sphere,
+// the part of light from behind that it takes away at right angles, and the colour of what it
+// scatters.
+struct BodyRing {
+  double inner, outer, opacity;
+  WorkingRgb colour;
+};
 
 struct Body {
   std::string name;
@@ -38,12 +48,19 @@ struct Body {
   // without a hole.
   double magnitude = 0;
   double radius = 0;  // of a sphere, M; 0 of a point
-  // An equirectangular image of the surface, whose north is `normal` and whose middle is at `node`;
-  // empty for none.
+  double tilt = 0;    // of its own axis from `normal` towards `node`, radians
+  // An equirectangular image of the surface, whose middle is at `node` before it is tilted; empty for
+  // none.
   std::filesystem::path texture{};
   std::optional<BodyLamp> lit_from{};
+  double granulation = 0;  // contrast of the granules of a sphere that shines and has no texture
+  std::vector<BodyRing> rings{};  // from the inmost one on, none within another
 };
 inline constexpr double kBodyMagnitudeDistance = 100;  // M
+
+// Returns the axes of a sphere that does not turn, as columns: the middle and the east of its texture,
+// and its north, at right angles to its rings.
+M33d own_axes(const Body& body);
 
 // Says whether an observer can see bodies.  Nothing comes from region I to region IV, and the
 // mirrored frames are those of region III.

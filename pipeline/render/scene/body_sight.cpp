@@ -100,37 +100,50 @@ std::vector<BodySight::Piece> BodySight::pieces(const Body& body, const Image& i
     return {};
   std::vector<Piece> pieces;
   // The pieces have their solid angles, which become amplifications of the whole disc of the star.
-  for (const SpherePiece& piece :
-       sphere(body, image.traced, (in_trail ? 1 : 0.1) * pixel, spacing)) {
-    const double light = surface.light(piece);
+  const auto add = [&](const SkyImage& at, const WorkingRgb& tint, double light, double covered) {
     // A dark side has pieces, too, which hide what is behind them.
-    pieces.push_back({piece.at, surface.tint(piece), piece.at.amplification});
+    pieces.push_back({at, tint, covered * at.amplification});
     pieces.back().at.amplification *= light / (std::numbers::pi * whole * whole);
+  };
+  const RingedSphere seen =
+      sphere(body, image.traced, surface, (in_trail ? 1 : 0.1) * pixel, spacing);
+  for (const SpherePiece& piece : seen.sphere) {
+    const double left = surface.left_by(piece.through);
+    add(piece.at, surface.tint(piece), left * surface.light(piece), left);
   }
+  for (const RingPiece& piece : seen.rings)
+    add(piece.at, body.rings[static_cast<std::size_t>(piece.ring)].colour, surface.light(piece),
+        1 - surface.left_by(piece));
   return pieces;
 }
 
 // To first order, angles err by a part of about the size over the distance from the observer or from
 // the hole.
-std::vector<SpherePiece> BodySight::sphere(const Body& body, const BodyImage& image, double error,
-                                           const std::function<double(const V3d&)>& spacing) const {
+RingedSphere BodySight::sphere(const Body& body, const BodyImage& image, const BodySurface& surface,
+                               double error,
+                               const std::function<double(const V3d&)>& spacing) const {
   const double radius = radius_of(body), half = image.angle_per_length * radius;
   const double part = radius / image.r;
   // Two orders that meet in a ring are drawn in one way.
   const bool in_ring = image.psi > 1 && std::abs(std::sin(image.psi)) < 2 * part;
   const double off =
       in_ring ? std::min(half, size_of_sphere(image, radius) * part * part) : half * (half + part);
-  if (is_traced() && off > error) {
+  const bool has_rings = !body.rings.empty();
+  if (is_traced() && (off > error || has_rings)) {
     const BodyMotion motion = motion_of(observer_.spacetime, body, observer_.sky_from_tetrad);
     const auto place = [&](double r, double psi) {
       return lens_->place(observer_.null_time, r, psi);
     };
-    if (auto pieces = traced_sphere({place, observer_.spacetime, observer_.r}, motion, image,
-                                    radius, spacing))
-      return std::move(*pieces);
+    const SphereView view{place, observer_.spacetime, observer_.r};
+    if (has_rings) {
+      if (auto pieces = traced_with_rings(view, motion, image, radius, surface.rings(), spacing))
+        return std::move(*pieces);
+    } else if (auto pieces = traced_sphere(view, motion, image, radius, spacing)) {
+      return {std::move(*pieces), {}};
+    }
   }
   if (!is_outside(image, radius)) return {};
-  return image_of_sphere(image, radius, spacing);
+  return {image_of_sphere(image, radius, spacing), {}};
 }
 
 BodySight::Seen BodySight::seen(const SkyImage& image) const {

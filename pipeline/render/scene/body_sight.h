@@ -9,13 +9,15 @@
 
 #include "pipeline/light/body_image.h"
 #include "pipeline/light/lens.h"
-#include "pipeline/light/sphere_image.h"
+#include "pipeline/light/sphere_surface.h"
 #include "pipeline/render/scene/scene_stars.h"
 #include "pipeline/show/frame_state.h"
 #include "pipeline/show/viewer.h"
 #include "pipeline/sources/colour/colour_space.h"
 
 namespace domefall {
+
+class BodySurface;
 
 class BodySight {
  public:
@@ -88,8 +90,8 @@ class BodySight {
                                   const std::optional<double>& emitted = {}) const;
   // Says whether large spheres are traced place by place.
   bool is_traced() const;
-  std::vector<SpherePiece> sphere(const Body& body, const BodyImage& image, double error,
-                                  const std::function<double(const V3d&)>& spacing) const;
+  RingedSphere sphere(const Body& body, const BodyImage& image, const BodySurface& surface,
+                      double error, const std::function<double(const V3d&)>& spacing) const;
 
   const Effects& effects_;
   const ObserverState& observer_;

@@ -235,13 +235,67 @@ Body read_body(const std::string& name, const Item& item, const Show& to,
   return body;
 }
 
+// Reads one ring, which begins outside the one before it.
+std::optional<BodyRing> read_ring(const Item& item, const std::vector<BodyRing>& before) {
+  const Section s(item, {"ring"});
+  const auto inner = s.required("inner"), outer = s.required("outer");
+  V3d colour(1, 1, 1);
+  if (const Item* given = s.find("colour"))
+    if (const auto rgb = read_numbers(*given, 3, s.range("colour")))
+      colour = {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+  const V3d light = apply(working_from_rec709(), colour);
+  const double opacity = s.number("opacity");
+  if (!inner || !outer) return std::nullopt;
+  if (!(*outer > *inner))
+    s.find("outer")->fail("must exceed inner = " + short_number(*inner) + ", got " +
+                          as_written(*s.find("outer")));
+  if (!before.empty() && *inner < before.back().outer)
+    s.find("inner")->fail("must not be below the outer = " + short_number(before.back().outer) +
+                          " of the ring before it, got " + as_written(*s.find("inner")));
+  return BodyRing{
+      *inner,
+      *outer,
+      opacity,
+      {static_cast<float>(light.x), static_cast<float>(light.y), static_cast<float>(light.z)}};
+}
+
+// Reads one ring, or a list of them.
+void read_rings(const Item& item, const Spacetime& spacetime, Body& body) {
+  if (spacetime.is<Wormhole>()) item.fail("are about bodies near a hole");
+  const auto add = [&](const Item& one) {
+    if (const auto ring = read_ring(one, body.rings)) body.rings.push_back(*ring);
+  };
+  if (!item.node.IsSequence())
+    add(item);
+  else if (const auto list = read_list(item))
+    for (const Item& one : *list) add(one);
+  if (body.rings.empty() || !(body.radius > 0)) return;
+  const auto [low, high] = reach(body.trajectory);
+  const double horizon = spacetime.horizon(), clear = (low > horizon ? low : high) - horizon,
+               outer = body.rings.back().outer * body.radius;
+  if (!(outer < clear))
+    item.fail(fmt::format("reach to {} M from the body, which must stay below {}: the horizon",
+                          short_number(outer), short_number(clear)));
+}
+
 // Reads what the surface of a body looks like.  The other bodies may follow this one.
-void read_surface(const Section& s, const std::map<std::string, Item>& names, Lookup& lookup,
-                  Body& body) {
+void read_surface(const Section& s, const Show& to, const std::map<std::string, Item>& names,
+                  Lookup& lookup, Body& body) {
   const Item* texture = s.find("texture");
   const Item* lamp = s.find("lit_from");
-  for (const Item* item : {texture, lamp})
+  const Item* granulation = s.find("granulation");
+  const Item *rings = s.find("rings"), *tilt = s.find("tilt_deg");
+  for (const Item* item : {texture, lamp, granulation, rings, tilt})
     if (item && !(body.radius > 0)) item->fail("is for a sphere, which has a radius");
+  body.tilt = s.angle("tilt_deg");
+  if (rings) read_rings(*rings, to.spacetime, body);
+  const Item* even = texture ? texture : lamp;
+  if (granulation && even)
+    granulation->fail("is for the surface of a star, which has no texture and shines itself");
+  // Where gas is hotter it does not rise and sink at the surface.
+  constexpr double kHottest = 8000, kContrast = 0.12;
+  if (!even)
+    body.granulation = s.given("granulation").value_or(body.temperature > kHottest ? 0 : kContrast);
   if (texture)
     if (const auto name = read_text(*texture))
       if (const auto file = lookup.file(*texture, *name)) body.texture = *file;
@@ -273,7 +327,7 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
   for (const auto& [name, item] : entries_of(*list)) names.emplace(name, item);
   for (const auto& [name, item] : entries_of(*list)) {
     bodies.push_back(read_body(name, item, to, to.begins_year, lookup));
-    read_surface(Section(item, {"bodies", "body.light"}), names, lookup, bodies.back());
+    read_surface(Section(item, {"bodies", "body.light"}), to, names, lookup, bodies.back());
   }
   const std::vector<Body> all = bodies;
   for (Body& body : bodies)

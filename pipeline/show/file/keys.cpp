@@ -291,7 +291,15 @@ constexpr std::string_view kRows = R"(
 | `absolute_magnitude` | -100 to 100 magnitudes: instead, that at 10 pc, as catalogues have it | |
 | `radius` | above 0, at most 1e6 M: of a glowing sphere. Its disc has the light of the `magnitude` and is darker towards the limb. The sphere must stay clear of the horizon on its orbit; if the body falls in, where its fall begins | [a point] |
 | `texture` | an equirectangular image of its surface, as any that [sky](#sky) takes: north is that of its orbit, the middle column faces the node, east is on the right. Its mean is as bright as a sphere without it, and white has the colour of `temperature_k` | [none] |
+| `granulation` | 0 to 1: the contrast of the granules of a star, a sphere without `texture` and `lit_from`, as a standard deviation; 0 for an even surface | [0.12, above 8000 K 0] |
 | `lit_from` | what lights it, if it does not shine itself: a place on the sky, `{ra_deg: X, dec_deg: Y}` or a name, the name of another body, or `disc`, for light from about the hole; its `magnitude` is then that of its full phase | [it shines itself] |
+| `tilt_deg` | -180 to 180: how far its own axis, the north of `texture` and `rings`, leans from that of its orbit towards the node | [0] |
+| `rings` | flat rings about its equator: a map with the keys [below](#rings-of-bodies), or a list of such maps, from the inmost ring on | [none] |
+## ring
+| `inner` | 1 to 100 of the body's radii: where it begins | required |
+| `outer` | 1 to 100 of the body's radii: where it ends | required |
+| `opacity` | 0 to 1: the part of light from behind that it takes away where it is seen face-on | [0.7] |
+| `colour` | 0 to 1: `[red, green, blue]`, linear light with the primaries of Rec.709 | [[1, 1, 1]] |
 ## body.light
 | `magnitude` | -100 to 100 magnitudes: visual magnitude that it would have at a distance of 100 M, at rest and without the hole | [0] |
 ## elements

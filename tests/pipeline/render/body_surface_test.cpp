@@ -62,7 +62,7 @@ TEST(BodySurface, IsDarkerTowardsTheLimbByTheSolarLaw) {
     const auto image = sight.image(show.bodies[0], 0);
     const BodySurface surface(show.bodies[0], image->traced, state.observer);
     for (const double cosine : {0.0, 0.5, 1.0}) {
-      const double light = surface.light({{}, cosine, {}});
+      const double light = surface.light(SpherePiece{{}, cosine, {}});
       EXPECT_NEAR(light, (1 - 0.6 * (1 - cosine)) / 0.8, 1e-12);
       least = std::min(least, light), most = std::max(most, light);
     }
@@ -110,6 +110,96 @@ TEST(BodySurface, HasItsTextureTheRightWayRound) {
   EXPECT_GT(surface.tint(western).g, 2 * surface.tint(western).r);
 }
 
+struct Ringed {
+  Ringed(double light_across, double light_up) : show(show_with_sphere(3000, 2000, 0.2, 30)) {
+    Body& body = show.bodies[0];
+    body.rings = {{1.3, 1.8, 0.5, {1, 1, 1}}, {2, 2.4, 0.9, {1, 1, 1}}};
+    // Light comes from along the node, and up.
+    body.lit_from =
+        SkyDirection{(body.node.v * light_across + body.normal.v * light_up).normalized()};
+    state = frame_state(show, 0);
+    image = BodySight(state, show.effects, show.least_star_radius).image(body, 0)->traced;
+  }
+  BodySurface surface() const { return {show.bodies[0], image, state.observer}; }
+  V3d in_tetrad(double along_node, double onward, double up) const {
+    const Body& body = show.bodies[0];
+    const V3d across = body.normal.v.cross(body.node.v);
+    return apply_transposed(state.observer.sky_from_tetrad,
+                            body.node.v * along_node + across * onward + body.normal.v * up);
+  }
+  Show show;
+  FrameState state;
+  BodyImage image;
+};
+
+TEST(BodySurface, ShadowsItsRings) {
+  const Ringed ringed(std::cos(0.3), std::sin(0.3));
+  const BodySurface surface = ringed.surface();
+  const auto light = [&](double along_node, double onward, double up) {
+    return surface.light(
+        RingPiece{{}, 0, ringed.in_tetrad(along_node, onward, 0), ringed.in_tetrad(0.6, 0, up), 0});
+  };
+  // The shadow is a cylinder about the light's direction, as wide as the body.
+  const double beside = std::sqrt(1 - std::pow(1.5 * std::sin(0.3), 2));
+  EXPECT_EQ(light(-1.5, beside * 0.99, 0.8), 0);
+  EXPECT_GT(light(-1.5, beside * 1.01, 0.8), 0.1);
+  EXPECT_GT(light(1.5, 0.5, 0.8), 0.1);
+  const double end = -1 / std::sin(0.3);
+  EXPECT_EQ(light(end * 0.99, 0, 0.8), 0);
+  EXPECT_GT(light(end * 1.01, 0, 0.8), 0.1);
+  // The side that is not lit has less light.
+  EXPECT_LT(light(1.5, 0.5, -0.8), light(1.5, 0.5, 0.8));
+}
+
+TEST(BodySurface, IsShadowedByItsRings) {
+  const double up = 0.4;
+  const Ringed ringed(std::cos(up), std::sin(up));
+  const BodySurface surface = ringed.surface();
+  // The light of a southern place has come through the rings' plane at this radius.
+  const auto light = [&](double radius) {
+    // The place is radius along the node less t of the light's direction.
+    const double b = radius * std::cos(up), t = b - std::sqrt(b * b - radius * radius + 1);
+    const V3d place = ringed.in_tetrad(radius - t * std::cos(up), 0, -t * std::sin(up));
+    EXPECT_NEAR(place.length(), 1, 1e-12);
+    const V3d from = ringed.in_tetrad(std::cos(up), 0, std::sin(up));
+    return surface.light(SpherePiece{{}, 1, place, 0}) / (1.5 * place.dot(from));
+  };
+  EXPECT_NEAR(light(1.29), 1, 1e-12);
+  for (const double radius : {1.31, 1.5, 1.79})
+    EXPECT_NEAR(light(radius), std::pow(0.5, 1 / std::sin(up)), 1e-12);
+  EXPECT_NEAR(light(1.81), 1, 1e-12);
+  EXPECT_NEAR(light(2.2), std::pow(0.1, 1 / std::sin(up)), 1e-12);
+}
+
+TEST(BodySurface, IsSeenThroughItsRings) {
+  const Ringed ringed(1, 0);
+  const BodySurface surface = ringed.surface();
+  EXPECT_EQ(surface.left_by(RingCrossing{}), 1);
+  EXPECT_NEAR(surface.left_by(RingCrossing{0, 1}), 0.5, 1e-12);
+  EXPECT_NEAR(surface.left_by(RingCrossing{0, 0.5}), 0.25, 1e-12);
+  EXPECT_NEAR(surface.left_by(RingCrossing{1, 1}), 0.1, 1e-12);
+}
+
+TEST(BodySurface, HasGranulesThatKeepItsLight) {
+  Show grained = show_with_sphere(3000, 2000, 0.2, 300), even = grained;
+  grained.bodies[0].granulation = 0.12;
+  double sum = 0, squares = 0, light = 0;
+  const auto fine = pieces_of(grained), smooth = pieces_of(even);
+  ASSERT_EQ(fine.size(), smooth.size());
+  for (std::size_t k = 0; k < fine.size(); ++k) {
+    const double ratio = fine[k].at.amplification / smooth[k].at.amplification;
+    sum += ratio, squares += ratio * ratio, light += smooth[k].at.amplification;
+  }
+  const double mean = sum / double(fine.size());
+  EXPECT_GT(std::sqrt(squares / double(fine.size()) - mean * mean), 0.05);
+  EXPECT_NEAR(light_of(grained), light_of(even), 0.01);
+  // From far away nothing is left of them.
+  grained = show_with_sphere(3000, 2000, 0.2, 2);
+  const double before = light_of(grained);
+  grained.bodies[0].granulation = 0.12;
+  EXPECT_EQ(light_of(grained), before);
+}
+
 // As bright as the frame has it, beside the same body as a point.
 TEST(BodySurface, IsSeenAsTheVOfItsPixels) {
   const auto light = [](const Show& show) {
@@ -152,6 +242,14 @@ TEST(BodySurface, IsInTheKeysOfFrames) {
   EXPECT_NE(key(plain), key(textured));
   EXPECT_NE(key(plain), key(lit));
   EXPECT_NE(key(lit), key(from_hole));
+  Show grained = plain, ringed = plain, tilted = plain;
+  grained.bodies[0].granulation = 0.12;
+  ringed.bodies[0].rings = {{1.5, 2, 0.5, {1, 1, 1}}};
+  tilted.bodies[0].tilt = 0.1;
+  for (const Show& show : {grained, ringed, tilted}) EXPECT_NE(key(plain), key(show));
+  Show clearer = ringed;
+  clearer.bodies[0].rings[0].opacity = 0.4;
+  EXPECT_NE(key(ringed), key(clearer));
 }
 
 // A planet's night side is black before the sky, and what is left of the sky says so.

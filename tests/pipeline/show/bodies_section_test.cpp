@@ -63,6 +63,31 @@ TEST_F(Bodies, AreLitFromThePlaceThatTheyName) {
   expect_near(std::get<SkyDirection>(*show.bodies[3].lit_from).v, V3d(0, 0, 1));
 }
 
+TEST_F(Bodies, HaveGranulesAndRings) {
+  const Show show = with(
+      "bodies:\n  sun: {r: 60, radius: 2}\n  hot: {r: 60, radius: 2, temperature_k: 20000}\n"
+      "  even: {r: 60, radius: 2, granulation: 0}\n"
+      "  planet: {r: 90, radius: 1, lit_from: sun, tilt_deg: 20, rings: [{inner: 1.2, outer: 1.5, "
+      "opacity: 0.1}, {inner: 1.5, outer: 2, colour: [1, 0.5, 0.2]}]}\n");
+  ASSERT_EQ(show.bodies.size(), 4u);
+  EXPECT_EQ(show.bodies[0].granulation, 0.12);
+  for (const std::size_t k : {1, 2, 3}) EXPECT_EQ(show.bodies[k].granulation, 0) << k;
+  const Body& planet = show.bodies[3];
+  ASSERT_EQ(planet.rings.size(), 2u);
+  EXPECT_EQ(planet.rings[0].inner, 1.2);
+  EXPECT_EQ(planet.rings[0].outer, 1.5);
+  EXPECT_EQ(planet.rings[0].opacity, 0.1);
+  EXPECT_EQ(planet.rings[1].opacity, 0.7);
+  EXPECT_GT(planet.rings[1].colour.r, 2 * planet.rings[1].colour.b);
+  EXPECT_TRUE(show.bodies[0].rings.empty());
+  // Its north leans towards the node.
+  const M33d axes = own_axes(planet);
+  EXPECT_NEAR(column(axes, 2).dot(planet.normal.v), std::cos(20 * kDegree), 1e-14);
+  EXPECT_NEAR(column(axes, 2).dot(planet.node.v), std::sin(20 * kDegree), 1e-14);
+  EXPECT_NEAR(column(axes, 0).dot(column(axes, 2)), 0, 1e-14);
+  expect_near(column(axes, 2).cross(column(axes, 0)), column(axes, 1));
+}
+
 TEST_F(Bodies, GoTheirOwnWays) {
   const Show show = with(
       "bodies:\n  falls: {trajectory: {type: infall, rest_r: 9}, begins_m: 3, azimuth_deg: 20}\n"
@@ -192,6 +217,24 @@ TEST_F(BodyMistakes, AreToldWithTheirPlace) {
        "3:30: bodies.a.lit_from is for a sphere, which has a radius"},
       {"bodies: {a: {r: 9, radius: 1, lit_from: a}}",
        "3:41: bodies.a.lit_from must be another body"},
+      {"bodies: {a: {r: 9, granulation: 0.1}}",
+       "3:33: bodies.a.granulation is for a sphere, which has a radius"},
+      {"bodies: {a: {r: 9, radius: 1, lit_from: disc, granulation: 0.1}}",
+       "3:60: bodies.a.granulation is for the surface of a star, which has no texture and shines "
+       "itself"},
+      {"bodies: {a: {r: 9, rings: {inner: 2, outer: 3}}}",
+       "3:27: bodies.a.rings is for a sphere, which has a radius"},
+      {"bodies: {a: {r: 9, radius: 1, rings: {inner: 2}}}",
+       "3:38: bodies.a.rings.outer is missing (of the body's radii)"},
+      {"bodies: {a: {r: 9, radius: 1, rings: {inner: 2, outer: 1.5}}}",
+       "3:56: bodies.a.rings.outer must exceed inner = 2, got 1.5"},
+      {"bodies: {a: {r: 9, radius: 1, rings: [{inner: 1.2, outer: 2}, {inner: 1.5, outer: 3}]}}",
+       "3:71: bodies.a.rings[2].inner must not be below the outer = 2 of the ring before it, got "
+       "1.5"},
+      {"bodies: {a: {r: 9, radius: 1, rings: {inner: 0.5, outer: 1.5}}}",
+       "3:46: bodies.a.rings.inner must be at least 1 (of the body's radii), got 0.5"},
+      {"bodies: {a: {r: 9, radius: 3, rings: {inner: 1.5, outer: 3}}}",
+       "3:38: bodies.a.rings reach to 9 M from the body, which must stay below 7: the horizon"},
       {"bodies: [{r: 9}]",
        "3:9: bodies must be a map of names and bodies, e.g. {beacon: {r: 10}}, got a list"},
   });
