@@ -23,6 +23,9 @@ struct OrbitPoint {
   DoubleDouble null_time{};
   int universe = 0;  // of those that follow each other through a charged hole
   double l = 0;      // of a wormhole, as in ObserverState
+  // Near a hole that spins this is the angle from its axis, along which Theta points, and azimuth is
+  // that about the axis in the coordinates of light that falls.
+  double theta = 0;
 };
 
 }  // namespace domefall

@@ -6,12 +6,38 @@
 
 namespace domefall {
 
-long double KerrHole::twist(long double r) const {
-  const long double d = horizon_distance(), above_inner = (r - 1) + d;
-  // ln|(r - r_+)/(r - r_-)|/(2d), which tends to -1/(r - r_-) as the horizons become one.
+namespace {
+
+// Returns ln|(r - r_+)/(r - r_-)|/(r_+ - r_-), which tends to -1/(r - r_-) as the horizons become one.
+long double log_of_ratio(const KerrHole& hole, long double r) {
+  const long double d = hole.horizon_distance(), above_inner = (r - 1) + d;
   const long double x = 2 * d / above_inner;
   const long double log = x < 0.5L ? std::log1p(-x) : std::log(std::abs((r - 1) - d) / above_inner);
-  return spin * log / (2 * d);
+  return log / (2 * d);
+}
+
+}  // namespace
+
+long double KerrHole::twist(long double r) const { return spin * log_of_ratio(*this, r); }
+
+// r^2 + a^2 = Delta + 2r - q^2, and the parts of the rest sum up to 2.
+long double KerrHole::tortoise(long double r) const {
+  return r + 2 * std::log(std::abs((r - 1) + horizon_distance())) +
+         (horizon() * horizon() + spin * spin) * log_of_ratio(*this, r);
+}
+
+double kerr_light_circle(const KerrHole& hole, bool prograde) {
+  const auto a = static_cast<double>(prograde ? hole.spin : -hole.spin);
+  const auto q2 = static_cast<double>(hole.charge * hole.charge);
+  // By Newton's method from outside, which comes to the outermost root from above.
+  double r = 4.5;
+  for (int k = 0; k < 60; ++k) {
+    const double w = std::sqrt(r - q2), over = r * r - 3 * r + 2 * q2 + 2 * a * w;
+    const double next = r - over / (2 * r - 3 + a / w);
+    if (!(next < r)) break;
+    r = next;
+  }
+  return r;
 }
 
 std::optional<KerrCircle> kerr_circle(const KerrHole& hole, double r, bool prograde) {

@@ -18,6 +18,8 @@ struct KerrHole {
   // What the spin's decimals have beyond its rounding: 1e-14 of d where 1 - a = 1e-6.
   long double spin_rest = 0;
 
+  bool operator==(const KerrHole&) const = default;
+
   // Returns d, half of r_+ - r_-.  That of an extremal hole, 0, is taken as 1e-9, as a spin gives that
   // differs from it in the last digit.
   long double horizon_distance() const {
@@ -34,6 +36,8 @@ struct KerrHole {
   // Returns r#, by which the angle of light that rises, phi - r#, and of light that falls, phi + r#,
   // differ from phi.  It is 0 at infinity, and infinite on the horizons.
   long double twist(long double r) const;
+  // Returns r*, with which v = t + r* and u = t - r* are the times of light that falls and that rises.
+  long double tortoise(long double r) const;
 };
 
 // A KerrCircle is a free circular orbit in the equatorial plane.  Bodies on it that go around with the
@@ -43,6 +47,9 @@ struct KerrCircle {
 };
 // Returns nothing at and within the circle of light, where no such orbit is.
 std::optional<KerrCircle> kerr_circle(const KerrHole& hole, double r, bool prograde);
+
+// Returns r of the circle on which light goes around in the equatorial plane.
+double kerr_light_circle(const KerrHole& hole, bool prograde);
 
 // Returns r of the last stable circle.
 double last_stable_circle(const KerrHole& hole, bool prograde);

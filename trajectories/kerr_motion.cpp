@@ -1,0 +1,166 @@
+#include "trajectories/kerr_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace domefall {
+namespace {
+
+struct Metric {
+  double spin, squares, charged, sigma, sine2;  // a, a^2 + q^2, 2r - q^2, ...
+
+  Metric(const KerrHole& hole, double r, double theta)
+      : spin(static_cast<double>(hole.spin)),
+        squares(static_cast<double>(hole.squares())),
+        charged(2 * r - static_cast<double>(hole.charge * hole.charge)),
+        sigma(r * r + spin * spin * std::cos(theta) * std::cos(theta)),
+        sine2(std::sin(theta) * std::sin(theta)) {}
+  double tt() const { return 1 - charged / sigma; }
+  double tphi() const { return spin * sine2 * charged / sigma; }
+  // -g_phiphi/sin^2
+  double around(double r) const {
+    return r * r + spin * spin + spin * spin * sine2 * charged / sigma;
+  }
+};
+
+}  // namespace
+
+double along_falling(const KerrHole& hole, double r, double p, double speed, double carter) {
+  return speed <= 0 ? (r * r + carter) / (p - speed)
+                    : (p + speed) / static_cast<double>(hole.delta(r));
+}
+
+KerrMotion kerr_motion(const KerrHole& hole, double r, double theta,
+                       const Celerity<ReferenceTetrad>& u) {
+  const Metric g(hole, r, theta);
+  const double a = g.spin, root = std::sqrt(g.sigma), sine = std::sin(theta);
+  const double time = gamma_of(u);
+  // u^T - u^R without a difference of like numbers.
+  const double across2 = 1 + u.y * u.y + u.z * u.z;
+  const double outward = u.x > 0 ? time + u.x : across2 / (time - u.x);
+  const double b = u.x > 0 ? across2 / (2 * (time + u.x)) : (time - u.x) / 2;
+  const double p = g.sigma * b + outward * static_cast<double>(hole.delta(r)) / 2;
+  const double around = root * sine * u.z;  // Y
+  const double energy = (p + a * around) / g.sigma;
+  const double cosine = std::cos(theta);
+  return {energy, around + a * energy * sine * sine,
+          g.sigma * (u.y * u.y + u.z * u.z) + a * a * cosine * cosine, u};
+}
+
+std::optional<KerrMotion> kerr_motion(const KerrHole& hole, double r, double theta, double energy,
+                                      double momentum, double carter_q, int sign_r,
+                                      int sign_theta) {
+  const Metric g(hole, r, theta);
+  const double a = g.spin, sine = std::sin(theta), cosine = std::cos(theta);
+  const double over = momentum - a * energy, carter = carter_q + over * over;
+  const double p = (r * r + a * a) * energy - a * momentum;
+  const auto root = [](double square, double scale) -> std::optional<double> {
+    if (square < -1e-11 * scale) return std::nullopt;
+    return std::sqrt(std::max(square, 0.0));
+  };
+  const double delta = static_cast<double>(hole.delta(r)), falling = delta * (r * r + carter);
+  const auto speed = root(p * p - falling, p * p + std::abs(falling));
+  // (L - aE sin^2)/sin, which on the axis is that of a passage.
+  const double around = sine > 0 ? momentum / sine - a * energy * sine : 0;
+  const auto polar =
+      root(carter - a * a * cosine * cosine - around * around, std::abs(carter) + around * around);
+  if (!speed || !polar) return std::nullopt;
+  const double rate = sign_r * *speed, outward = along_falling(hole, r, p, rate, carter),
+               b = (p - rate) / (2 * g.sigma), size = std::sqrt(g.sigma);
+  return KerrMotion{
+      energy, momentum, carter, {outward / 2 - b, sign_theta * *polar / size, around / size}};
+}
+
+double dragged_velocity(const KerrHole& hole, double r, double theta) {
+  const Metric g(hole, r, theta);
+  return g.spin * g.charged / (g.sigma * g.around(r));
+}
+
+std::optional<KerrMotion> kerr_circling(const KerrHole& hole, double r, double theta,
+                                        double velocity) {
+  const Metric g(hole, r, theta);
+  const double own = g.tt() + 2 * velocity * g.tphi() - velocity * velocity * g.sine2 * g.around(r);
+  const double delta = static_cast<double>(hole.delta(r));
+  if (!(own > 0 && r > static_cast<double>(hole.horizon()))) return std::nullopt;
+  const double time = 1 / std::sqrt(own);
+  const double energy = time * (g.tt() + velocity * g.tphi());
+  const double per_sine2 =
+      time * (velocity * g.around(r) - g.spin * g.charged / g.sigma);  // L/sin^2
+  const double a = g.spin, momentum = per_sine2 * g.sine2;
+  const double p = (r * r + a * a) * energy - a * momentum, sine = std::sin(theta);
+  return KerrMotion{energy,
+                    momentum,
+                    p * p / delta - r * r,
+                    {p / (2 * delta) - p / (2 * g.sigma), 0,
+                     (per_sine2 - a * energy) * sine / std::sqrt(g.sigma)}};
+}
+
+double circling_rate(const KerrHole& hole, double r, double theta, double velocity) {
+  const Metric g(hole, r, theta);
+  return 1 /
+         std::sqrt(g.tt() + 2 * velocity * g.tphi() - velocity * velocity * g.sine2 * g.around(r));
+}
+
+// With Q = z [a^2 (1 - E^2) + L^2/(1 - z)], z = sin^2 of the inclination, where r turns
+//
+//     f E^2 - 2 g E L - h L^2 - d = 0
+//
+// (W. Schmidt, Class. Quantum Grav. 19, 2743 (2002), here with a charge).  Between two such radii, or for
+// a circle with its derivative, E^2 has a quadratic.
+std::optional<KerrMotion> kerr_bound(const KerrHole& hole, double periastron, double apoastron,
+                                     double inclination) {
+  const auto a = static_cast<double>(hole.spin), q = static_cast<double>(hole.charge);
+  const double sine = std::sin(inclination), z = sine * sine, open = (1 - sine) * (1 + sine);
+  struct Turn {
+    double d, f, g, h;
+  };
+  const auto turn = [&](double r) {
+    const double delta = static_cast<double>(hole.delta(r));
+    return Turn{(r * r + a * a * z) * delta,
+                r * r * r * r + a * a * (r * (r + 2) - q * q + z * delta), a * (2 * r - q * q),
+                r * (r - 2) + q * q + z / open * delta};
+  };
+  const auto slope = [&](double r) {
+    const double delta = static_cast<double>(hole.delta(r)), rate = 2 * (r - 1);
+    return Turn{2 * r * delta + (r * r + a * a * z) * rate,
+                4 * r * r * r + a * a * (2 * r + 2 + z * rate), 2 * a,
+                2 * (r - 1) + z / open * rate};
+  };
+  if (!(open > 1e-12)) return std::nullopt;
+  const Turn one = turn(periastron),
+             two = apoastron > periastron ? turn(apoastron) : slope(periastron);
+  const auto cross = [](double a1, double b1, double a2, double b2) { return a1 * b2 - a2 * b1; };
+  const double kappa = cross(one.d, one.h, two.d, two.h), eps = cross(one.d, one.g, two.d, two.g),
+               rho = cross(one.f, one.h, two.f, two.h), eta = cross(one.f, one.g, two.f, two.g),
+               sigma = cross(one.g, one.h, two.g, two.h);
+  const bool retrograde = inclination > std::numbers::pi / 2;
+  const double inner = sigma * (sigma * eps * eps + rho * eps * kappa - eta * kappa * kappa);
+  if (!(inner >= 0)) return std::nullopt;
+  const double energy2 =
+      (kappa * rho + 2 * eps * sigma + (retrograde ? 2 : -2) * std::sqrt(inner)) /
+      (rho * rho + 4 * eta * sigma);
+  if (!(energy2 > 0 && energy2 < 1)) return std::nullopt;
+  const double energy = std::sqrt(energy2);
+  // L by that of its roots which has the sense, without a difference of like numbers.
+  const double root2 = one.g * one.g * energy2 + (one.f * energy2 - one.d) * one.h;
+  if (!(root2 >= 0) || one.h == 0) return std::nullopt;
+  const double momentum = (-one.g * energy + (retrograde ? -1 : 1) * std::sqrt(root2)) / one.h;
+  if (retrograde != (momentum < 0)) return std::nullopt;
+  const double carter_q = z * (a * a * (1 - energy2) + momentum * momentum / open);
+  // r must be able to grow from there on.
+  if (!(periastron > static_cast<double>(hole.horizon()))) return std::nullopt;
+  auto motion =
+      kerr_motion(hole, periastron, std::numbers::pi / 2, energy, momentum, carter_q, 0, -1);
+  if (!motion) return std::nullopt;
+  const double over = momentum - a * energy, carter = carter_q + over * over;
+  const double constant = a * (a * energy - momentum), r = periastron;
+  const double pull = 2 * (energy2 - 1) * r * r * r + 3 * r * r +
+                      (2 * energy * constant - static_cast<double>(hole.squares()) - carter) * r +
+                      carter;
+  const double terms = 2 * r * r * r + 3 * r * r + carter;
+  if (apoastron > periastron ? !(pull > 0) : std::abs(pull) > 1e-9 * terms) return std::nullopt;
+  return motion;
+}
+
+}  // namespace domefall

@@ -1,0 +1,205 @@
+#include "trajectories/kerr_radius.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace domefall {
+namespace {
+
+// How close to the horizons r is followed.
+constexpr double kPastHorizon = 1e-6, kInnerHorizon = 1e-6;
+
+}  // namespace
+
+KerrRadius::KerrRadius(const KerrHole& hole, const KerrMotion& motion, double r, double speed)
+    : hole_(hole),
+      spin_(static_cast<double>(hole.spin)),
+      energy_(motion.energy),
+      excess_((motion.energy - 1) * (motion.energy + 1)),
+      carter_(motion.carter),
+      charges_(static_cast<double>(hole.squares())),
+      constant_(spin_ * (spin_ * energy_ - motion.momentum)),
+      least_(r),
+      greatest_(r) {
+  follow({0, r, speed_at(r, speed)});
+}
+
+KerrRadius::NodeSeries KerrRadius::series(const Node& at) const {
+  NodeSeries s{};
+  Series cube{}, p{}, delta{};
+  s.r[0] = at.r, s.r[1] = at.speed;
+  const bool falls = at.speed <= 0;
+  for (int n = 0; n < kTerms; ++n) {
+    const auto j = static_cast<std::size_t>(n);
+    s.square[j] = product(s.r, s.r, n);
+    cube[j] = product(s.square, s.r, n);
+    const double bent = 2 * excess_ * cube[j] + 3 * s.square[j] +
+                        (2 * energy_ * constant_ - charges_ - carter_) * s.r[j] +
+                        (n == 0 ? carter_ : 0);
+    s.r[j + 2] = bent / ((n + 1) * (n + 2));
+    p[j] = energy_ * s.square[j] + (n == 0 ? constant_ : 0);
+    const double speed = (n + 1) * s.r[j + 1];
+    // The numerator less what the terms before have of it, over the first term of the denominator.
+    delta[j] = falls ? p[j] - speed : s.square[j] - 2 * s.r[j] + (n == 0 ? charges_ : 0);
+    double rest = falls ? s.square[j] + (n == 0 ? carter_ : 0) : p[j] + speed;
+    if (n == 0 && !falls) delta[0] = static_cast<double>(hole_.delta(at.r));
+    for (int m = 1; m <= n; ++m)
+      rest -= delta[static_cast<std::size_t>(m)] * s.along[static_cast<std::size_t>(n - m)];
+    s.along[j] = rest / delta[0];
+  }
+  for (int n = 0; n < kTerms; ++n)
+    s.time[static_cast<std::size_t>(n)] =
+        product(s.square, s.along, n) + spin_ * spin_ * s.along[static_cast<std::size_t>(n)];
+  s.reach = std::min(
+      {range(s.r, at.r), range(s.along, std::abs(s.along[0])), range(s.time, std::abs(s.time[0]))});
+  return s;
+}
+
+double KerrRadius::speed_at(double r, double nearly) const {
+  const double linear = 2 * energy_ * constant_ - charges_ - carter_,
+               rest = constant_ * constant_ - charges_ * carter_;
+  const double square = (((excess_ * r + 2) * r + linear) * r + 2 * carter_) * r + rest;
+  const double terms =
+      (((std::abs(excess_) * r + 2) * r + std::abs(linear)) * r + 2 * std::abs(carter_)) * r +
+      std::abs(rest);
+  return square > 1e-2 * terms && nearly != 0 ? std::copysign(std::sqrt(square), nearly) : nearly;
+}
+
+KerrRadius::Node KerrRadius::after(const Node& at, const NodeSeries& s, double h) const {
+  const double r = value(s.r, h);
+  return {at.l + h,
+          r,
+          speed_at(r, slope(s.r, h)),
+          at.squares + integral(s.square, h),
+          at.angle + integral(s.along, h),
+          at.time + integral(s.time, h)};
+}
+
+void KerrRadius::follow(const Node& start) {
+  NodeSeries s = series(start);
+  const double bent = std::abs(s.r[2]), terms = std::abs(2 * excess_ * std::pow(start.r, 3)) +
+                                                3 * start.r * start.r + std::abs(carter_);
+  // How much steeper the pull becomes outwards, by r.
+  const double stiff = -(6 * excess_ * start.r * start.r + 6 * start.r + 2 * energy_ * constant_ -
+                         charges_ - carter_);
+  circles_ = start.speed == 0 &&
+             (bent < 1e-12 * terms || (stiff > 0 && 2 * bent / stiff < 1e-12 * start.r));
+  nodes_.push_back(start);
+  if (circles_) return;
+  const double inner = static_cast<double>(hole_.inner_horizon()) + kInnerHorizon;
+  std::vector<double> turns;
+  Node now = start;
+  if (start.speed == 0) turns.push_back(0);
+  while (turns.size() < 3) {
+    const double h = std::min(s.reach, 1e3);
+    Node next = after(now, s, h);
+    const auto radius = [&](double x) { return value(s.r, x); };
+    if (next.r < inner || !(next.r < kFarthest)) {
+      const double bound = next.r < inner ? inner : kFarthest;
+      const double x = zero_between([&](double t) { return radius(t) - bound; }, 0, h);
+      ends_ = next.r < inner;
+      nodes_.push_back(after(now, s, x));
+      last_ = now.l + x;
+      (ends_ ? least_ : greatest_) = bound;
+      break;
+    }
+    const bool turned = now.speed != 0 && (now.speed > 0) != (next.speed > 0);
+    if (turned)
+      turns.push_back(now.l + zero_between([&](double t) { return slope(s.r, t); }, 0, h));
+    nodes_.push_back(next);
+    now = next;
+    if (!turned || turns.size() < 3) s = series(now);
+    if (nodes_.size() > 100000)
+      throw std::domain_error("r cannot be followed that near to a bound");
+  }
+  for (const double turn : turns) {
+    const double r = at(turn).r;
+    least_ = std::min(least_, r), greatest_ = std::max(greatest_, r);
+  }
+  if (turns.size() == 3) {
+    const double period = turns[2] - turns[0];
+    sums_ = at(period);
+    period_ = period;
+    return;
+  }
+  follow_back(start);
+}
+
+void KerrRadius::follow_back(const Node& start) {
+  const double horizon = static_cast<double>(hole_.horizon()) + kPastHorizon;
+  std::vector<Node> before;
+  Node now = start;
+  if (now.speed > 0 && now.r < horizon)
+    throw std::domain_error("r must be farther from the past horizon");
+  while (true) {
+    const NodeSeries s = series(now);
+    const double h = std::min(s.reach, 1e3);
+    Node next = after(now, s, -h);
+    greatest_ = std::max(greatest_, std::min(next.r, kFarthest));
+    const bool out = next.speed > 0 && next.r < horizon, far = !(next.r < kFarthest);
+    if (out || far) {
+      const double bound = out ? horizon : kFarthest;
+      double x = h;
+      if ((now.r > bound) != (next.r > bound))
+        x = zero_between([&](double t) { return value(s.r, -t) - bound; }, 0, h);
+      before.push_back(after(now, s, -x));
+      first_ = now.l - x;
+      comes_out_ = out;
+      break;
+    }
+    before.push_back(next);
+    now = next;
+    if (before.size() > 100000)
+      throw std::domain_error("r cannot be followed that near to a bound");
+  }
+  nodes_.insert(nodes_.begin(), before.rbegin(), before.rend());
+}
+
+KerrRadius::Node KerrRadius::at(double l) const {
+  if (circles_) {
+    const Node& node = nodes_.front();
+    const double p = energy_ * node.r * node.r + constant_,
+                 along = along_falling(hole_, node.r, p, 0, carter_);
+    return {l,         node.r,
+            0,         node.r * node.r * l,
+            along * l, (node.r * node.r + spin_ * spin_) * along * l};
+  }
+  const double periods = has_period() ? std::floor(l / period_) : 0;
+  const double rest = periods != 0 ? l - periods * period_ : l;
+  const auto later = std::upper_bound(nodes_.begin() + 1, nodes_.end(), rest,
+                                      [](double x, const Node& node) { return x < node.l; });
+  const Node& node = *(later - 1);
+  Node there = after(node, series(node), rest - node.l);
+  there.l = l;
+  if (periods != 0) {
+    there.squares += periods * sums_.squares;
+    there.angle += periods * sums_.angle;
+    there.time += periods * sums_.time;
+  }
+  return there;
+}
+
+std::optional<double> KerrRadius::passage(double r, bool outward, double after_l) const {
+  std::optional<double> found;
+  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
+    const Node &from = nodes_[k], &to = nodes_[k + 1];
+    const NodeSeries s = series(from);
+    // A turn between two nodes divides their way.
+    const double end = to.l - from.l;
+    const double turn = (from.speed > 0) != (to.speed > 0)
+                            ? zero_between([&](double x) { return slope(s.r, x); }, 0, end)
+                            : end;
+    for (const auto& [a, b] : {std::pair(0.0, turn), std::pair(turn, end)}) {
+      const double low = value(s.r, a), high = value(s.r, b);
+      if (!(b > a) || (high > low) != outward) continue;
+      if ((low > r) == (high > r) && low != r && high != r) continue;
+      double l = from.l + zero_between([&s, r](double x) { return value(s.r, x) - r; }, a, b);
+      if (has_period() && l < after_l) l += period_ * std::ceil((after_l - l) / period_);
+      if (l >= after_l && (!found || l < *found)) found = l;
+    }
+  }
+  return found;
+}
+
+}  // namespace domefall
