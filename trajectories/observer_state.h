@@ -3,6 +3,8 @@
 // ([Riazuelo] sec. sec_cam).  It never has a four-velocity in (t, r), which is singular at r = 2M.
 #pragma once
 
+#include <utility>
+
 #include "pipeline/spacetime/spacetime.h"
 #include "trajectories/celerity.h"
 #include "trajectories/directions.h"
@@ -68,6 +70,16 @@ inline bool has_rest(const ObserverState& o) { return o.spacetime.lapse_squared(
 
 // Returns the celerity of what is at rest in r (outside) or in t (inside a horizon).
 Celerity<ReferenceTetrad> resting_celerity(const Spacetime& spacetime, double r, Tetrad tetrad);
+// The same at the observer's place.  About a hole that spins it is at rest in r who has no angular
+// momentum, and so turns with it.
+Celerity<ReferenceTetrad> resting_celerity(const ObserverState& o);
+
+// Returns d/dt along T and along R, Theta and Phi, at the observer's place.
+std::pair<double, V3d> static_time(const ObserverState& o);
+
+inline V3d axis_of(const SpinningHole& hole) { return {hole.axis[0], hole.axis[1], hole.axis[2]}; }
+// Returns the angle from the axis of a hole that spins.
+double polar_angle(const ObserverState& o, const SpinningHole& hole);
 
 // Returns dr/dtau of a motion, for any tetrad.
 double radial_rate(const Spacetime& spacetime, double r, Tetrad tetrad,

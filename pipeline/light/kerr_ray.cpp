@@ -37,7 +37,7 @@ KerrSphere<T> sphere_of(const KerrStart& start) {
 }
 
 template <class T>
-void follow_to_sky(const KerrStart& start, const KerrRoots& roots, TracedKerr& out) {
+void follow_to_sky(const KerrStart& start, const KerrRoots& roots, double ratio, TracedKerr& out) {
   const KerrPath<T> path(start, roots);
   const typename KerrPath<T>::Sum whole = path.whole();
   KerrSphere<T> sphere = sphere_of<T>(start);
@@ -56,23 +56,32 @@ void follow_to_sky(const KerrStart& start, const KerrRoots& roots, TracedKerr& o
       const V3d own(sphere.place[0].*by, sphere.place[1].*by, sphere.place[2].*by);
       return own + speed * (whole.mino.*by) + about * (whole.angle.*by);
     };
-    out.amplification = 1 / std::abs(n.dot(change(&Dual::d).cross(change(&Dual::e))));
+    const V3d by_delta = change(&Dual::d), along_edge = change(&Dual::e);
+    out.amplification = 1 / std::abs(n.dot(by_delta.cross(along_edge)));
+    // On the sky, with the mirror image undone.
+    const auto placed = [&](const V3d& v) {
+      const double w = start.mirrored ? -v.y : v.y;
+      return V3d(v.x * c - w * s, v.x * s + w * c, v.z);
+    };
+    out.by_delta = placed(by_delta);
+    out.across = placed(along_edge - by_delta * ratio) * (start.mirrored ? -1 : 1);
   }
 }
 
-// Takes as the second direction, instead of that of eta, nearly the one along the edge.  Next to an edge
+// Returns how much of delta the direction then has: takes as the second direction, instead of that of eta, nearly the one along the edge.  Next to an edge
 // the sky changes much and alike in any other two.
-void turn_along_edge(KerrStart& start, KerrRoots& roots) {
+double turn_along_edge(KerrStart& start, KerrRoots& roots) {
   const auto change = [&](long double Scaled::*by) {
     return 2 * roots.b1.v * (roots.b1.*by) - 4 * (roots.b0.*by);
   };
   constexpr long double kMost = 10;
   const long double ratio =
       std::clamp(-change(&Scaled::by_eta) / change(&Scaled::by_delta), -kMost, kMost);
-  if (!(std::abs(ratio) <= kMost)) return;
+  if (!(std::abs(ratio) <= kMost)) return 0;
   for (Scaled* s : {&start.kappa, &start.mu, &start.speed, &start.polar, &start.azimuthal,
                     &roots.b1, &roots.b0, &roots.e1, &roots.e0})
     s->by_eta += ratio * s->by_delta;
+  return static_cast<double>(ratio);
 }
 
 template <class T>
@@ -83,8 +92,8 @@ TracedKerr trace_with(const KerrPlace& at, const KerrDirection& direction) {
   out.energy = static_cast<double>(start.energy);
   if (start.origin == KerrOrigin::kPastHorizon) return out;
   KerrRoots roots = kerr_roots(start);
-  if constexpr (std::is_same_v<T, Dual>) turn_along_edge(start, roots);
-  follow_to_sky<T>(start, roots, out);
+  const double ratio = std::is_same_v<T, Dual> ? turn_along_edge(start, roots) : 0;
+  follow_to_sky<T>(start, roots, ratio, out);
   return out;
 }
 

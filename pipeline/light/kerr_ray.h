@@ -16,6 +16,7 @@ struct TracedKerr {
   // The rest is for light of a sky.
   V3d sky;               // unit vector to where it comes from, with the hole's axis as z
   double amplification;  // solid angle seen over solid angle on the sky
+  V3d by_delta, across;  // by how much it moves by delta, and by an angle across, sin(delta) eta
   int turns;             // how often cos(theta) was extreme on the way
   double mino;           // Mino time to the sky
 };

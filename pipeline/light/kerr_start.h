@@ -34,7 +34,7 @@ enum class KerrEdge { kSilhouette, kRegionThree };
 // A KerrDirection gives delta, or how far it is from an edge at the same eta, to full accuracy.
 struct KerrDirection {
   long double delta = 0, eta = 0;
-  std::optional<KerrEdge> edge;
+  std::optional<KerrEdge> edge{};
   long double offset = 0;
 };
 

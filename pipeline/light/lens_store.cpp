@@ -2,6 +2,7 @@
 
 #include "pipeline/light/charged_lens.h"
 #include "pipeline/light/hole_optics.h"
+#include "pipeline/light/kerr_lens.h"
 #include "pipeline/light/schwarzschild_lens.h"
 #include "pipeline/light/straight_lens.h"
 #include "pipeline/light/wormhole_lens.h"
@@ -21,6 +22,9 @@ HoleOptics optics_of(const Wormhole& wormhole, const ObserverState& observer) {
   return make_wormhole_optics(wormhole, observer);
 }
 
+// A chart takes their place.
+HoleOptics optics_of(const SpinningHole&, const ObserverState&) { return {}; }
+
 }  // namespace
 
 HoleOptics optics_of(const ObserverState& observer) {
@@ -39,6 +43,8 @@ std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
     const StraightLight light = straight.value_or(StraightLight{{}, 1});
     return std::make_shared<StraightLens>(observer, light.rest, light.shift);
   }
+  if (const auto* hole = std::get_if<SpinningHole>(&observer.spacetime.kind()))
+    return kerr_lens(*hole, observer, wanted);
   const Place place{observer.spacetime, observer.region, observer.tetrad,
                     observer.universe,  observer.r,      observer.l};
   const bool same = place_ == place;
@@ -65,6 +71,30 @@ std::shared_ptr<const Lens> LensStore::lens(const ObserverState& observer,
   return std::make_shared<SphericalLens>(kept_, axes);
 }
 
-std::size_t LensStore::table_nodes() const { return kept_ ? node_count(*kept_) : 0; }
+std::shared_ptr<const Lens> LensStore::kerr_lens(const SpinningHole& hole,
+                                                 const ObserverState& observer,
+                                                 const WantedSkies& wanted) {
+  const KerrPlace at = kerr_place(hole, observer);
+  tables_made_ = 0;
+  if (!charts_ || !(*charts_ == at)) charts_ = std::make_shared<KerrCharts>(KerrCharts{at, {}, {}});
+  const auto add = [&](bool seen, std::shared_ptr<const KerrChart>& chart, KerrEdge sky) {
+    if (!seen || chart) return;
+    chart = std::make_shared<const KerrChart>(at, sky);
+    ++tables_made_;
+  };
+  // A lens that is still in use goes on to know the skies that it was made for.
+  if (charts_.use_count() > 1) charts_ = std::make_shared<KerrCharts>(*charts_);
+  add(wanted.sky[SkyRegion::kI], charts_->own, KerrEdge::kSilhouette);
+  add(wanted.sky[SkyRegion::kIII] && at.delta() < 0, charts_->beyond, KerrEdge::kRegionThree);
+  return std::make_shared<KerrLens>(charts_, observer.sky_from_tetrad);
+}
+
+std::size_t LensStore::table_nodes() const {
+  std::size_t nodes = kept_ ? node_count(*kept_) : 0;
+  if (charts_)
+    for (const auto& chart : {charts_->own, charts_->beyond})
+      if (chart) nodes += static_cast<std::size_t>(chart->rows() * chart->columns());
+  return nodes;
+}
 
 }  // namespace domefall

@@ -11,6 +11,7 @@
 namespace domefall {
 
 struct HoleOptics;
+struct KerrCharts;
 
 // Returns the optics of an observer without tables, and without any zone in flat space.
 HoleOptics optics_of(const ObserverState& observer);
@@ -45,8 +46,12 @@ class LensStore {
     bool operator==(const Place&) const = default;
   };
 
+  std::shared_ptr<const Lens> kerr_lens(const SpinningHole& hole, const ObserverState& observer,
+                                        const WantedSkies& wanted);
+
   std::shared_ptr<HoleOptics> kept_;
-  std::optional<Place> place_;  // of what is kept
+  std::shared_ptr<KerrCharts> charts_;  // of a hole that spins
+  std::optional<Place> place_;          // of what is kept
   int tables_made_ = 0;
 };
 

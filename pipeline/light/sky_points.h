@@ -73,6 +73,11 @@ class SkyPoints {
     return {};
   }
 
+  // Says whether a point has any number of images, which are listed and have no orders.
+  virtual bool lists_images() const { return false; }
+  // Appends those whose amplification times (frequency ratio)^4 may be above `least_light`.
+  virtual void list_images(const V3d&, double, double, std::vector<SkyImage>&) const {}
+
   // ---- many points at a time, if the lens was asked for a tolerance ----
 
   // Returns how many orders, from 0 on, are found many points at a time.

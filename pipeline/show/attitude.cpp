@@ -143,10 +143,9 @@ M33d untilted(const M33d& axes, double tilt) { return tilted(axes, -tilt); }
 V3d motion_direction(const ObserverState& o) {
   // The boost into the observer's frame ([Riazuelo] eq. Lambda_cov) turns the spatial part k of
   // d/dt = t T + k into k - c (t - c.k/(1 + gamma)), where c = gamma v.
-  const auto [t, s] = o.spacetime.static_time(o.r);
-  const V3d killing(is_outgoing(o.tetrad) ? -s : s, 0, 0);
+  const auto [along_t, killing] = static_time(o);
   const double gamma = gamma_of(o.celerity);
-  return -(killing - o.celerity * (t - o.celerity.dot(killing) / (1 + gamma)));
+  return -(killing - o.celerity * (along_t - o.celerity.dot(killing) / (1 + gamma)));
 }
 
 std::optional<V3d> target_direction(const Attitude& attitude, const ObserverState& o,

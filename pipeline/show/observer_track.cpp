@@ -43,7 +43,10 @@ OrbitPoint point_of(const Segment& s, const ProperTime& tau) {
 Joint moved(Joint joint, const Segment& s, const OrbitPoint& point) {
   const OrbitPoint start = point_of(s, s.timing.tau_begin);
   // The plane turns first, and the azimuth is then swept in the new one.
-  joint.axes = moved_on(turned(joint.axes, s.placement.turn), point.azimuth - start.azimuth);
+  const double swept = point.azimuth - start.azimuth;
+  const auto* hole = std::get_if<SpinningHole>(&joint.spacetime.kind());
+  joint.axes = hole ? moved_about(axis_of(*hole), joint.axes, point.theta, swept)
+                    : moved_on(turned(joint.axes, s.placement.turn), swept);
   joint.azimuth += point.azimuth - start.azimuth;
   joint.null_time = point.null_time + null_offset(joint, start);
   joint.universe = universe_into(joint, start) + point.universe - start.universe;

@@ -30,6 +30,17 @@ M33d turned(const M33d& axes, double turn) {
   return from_columns(column(axes, 0), south * c + t * s, t * c - south * s);
 }
 
+// Phi tells the azimuth on the axis, too.  Where an orbit's Phi is not horizontal, R does.
+M33d moved_about(const V3d& axis, const M33d& axes, double theta, double azimuth) {
+  const V3d r = column(axes, 0), along = column(axes, 2), level = r - axis * r.dot(axis);
+  const bool horizontal = std::abs(along.dot(axis)) < 1e-9 || level.length() < 1e-9;
+  const V3d out = (horizontal ? along.cross(axis) : level).normalized();
+  const double c = std::cos(azimuth), s = std::sin(azimuth);
+  const V3d turned = out * c + axis.cross(out) * s;
+  const V3d place = turned * std::sin(theta) + axis * std::cos(theta);
+  return from_columns(place, turned * std::cos(theta) - axis * std::sin(theta), axis.cross(turned));
+}
+
 OrbitPoint placed(OrbitPoint point, const Placement& placement) {
   // The null time of a mirrored tetrad counts after t -> -t (orbit_point.h), and so stays.
   if (placement.mirrored) {

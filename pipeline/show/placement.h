@@ -20,6 +20,11 @@ M33d place_tetrad(const SkyDirection& hole_at, double heading, double azimuth);
 // Returns the same axes after a further azimuth (radians) in their plane.
 M33d moved_on(const M33d& axes, double azimuth);
 
+// Returns the axes about a hole that spins, at the angle theta from its axis: Theta leads away from
+// the axis, and Phi around it.  The azimuth is that of other such axes, or of the Phi of an orbit, after
+// a further one.
+M33d moved_about(const V3d& axis, const M33d& axes, double theta, double azimuth);
+
 // A Beginning says where and when an observer begins who does not go on from where another one
 // ended.
 struct Beginning {

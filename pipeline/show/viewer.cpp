@@ -5,8 +5,7 @@ namespace domefall {
 Viewer viewer_of(const ObserverState& o, const Effects& effects) {
   Viewer viewer{.celerity = o.celerity};
   // On a horizon the tetrad stands in for the observer at rest.
-  if (o.spacetime.lapse_squared(o.r) != 0)
-    viewer.rest = resting_celerity(o.spacetime, o.r, o.tetrad);
+  if (o.spacetime.lapse_squared(o.r) != 0) viewer.rest = resting_celerity(o);
   if (effects.aberration || o.celerity == viewer.rest) return viewer;
   viewer.celerity = viewer.rest;
   // Against the observer at rest the tetrad moves with -rest.

@@ -15,6 +15,7 @@
 #include "pipeline/spacetime/radius.h"
 #include "pipeline/spacetime/regions.h"
 #include "pipeline/spacetime/schwarzschild.h"
+#include "pipeline/spacetime/spinning_hole.h"
 #include "pipeline/spacetime/wormhole.h"
 
 namespace domefall {
@@ -47,7 +48,7 @@ struct FlatSpace {
 
 class Spacetime {
  public:
-  using Kind = std::variant<FlatSpace, Schwarzschild, ChargedHole, Wormhole>;
+  using Kind = std::variant<FlatSpace, Schwarzschild, ChargedHole, Wormhole, SpinningHole>;
 
   Spacetime() = default;                                 // flat
   Spacetime(const Kind& kind) : kind_(kind) {}           // NOLINT: each kind is a spacetime
@@ -55,6 +56,7 @@ class Spacetime {
   Spacetime(const Schwarzschild& kind) : kind_(kind) {}  // NOLINT
   Spacetime(const ChargedHole& kind) : kind_(kind) {}    // NOLINT
   Spacetime(const Wormhole& kind) : kind_(kind) {}       // NOLINT
+  Spacetime(const SpinningHole& kind) : kind_(kind) {}   // NOLINT
 
   bool operator==(const Spacetime&) const = default;
 

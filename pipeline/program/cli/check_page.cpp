@@ -78,6 +78,13 @@ class Page {
     } else {
       line("black hole", "none: flat space");
     }
+    if (const auto* spinning = std::get_if<SpinningHole>(&show_.spacetime.kind())) {
+      std::string text = fmt::format("{:.6g}", static_cast<double>(spinning->kerr.spin));
+      if (spinning->kerr.charge > 0)
+        text += fmt::format(", and a charge of {:.6g}", static_cast<double>(spinning->kerr.charge));
+      line("spin", fmt::format("{}: horizons at r = {:.6g} M and {:.6g} M", text,
+                               spinning->horizon(), spinning->inner_horizon()));
+    }
     const auto* hole = std::get_if<ChargedHole>(&show_.spacetime.kind());
     if (hole && hole->is_naked())
       line("charge",

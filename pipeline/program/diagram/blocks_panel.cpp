@@ -74,7 +74,7 @@ std::vector<PenrosePoint> corners_of(const ChargedHole& hole, const Block& block
 }
 
 Extent extent_of(const Spacetime& spacetime, const Path& path) {
-  const auto* hole = std::get_if<ChargedHole>(&spacetime.kind());
+  const auto hole = two_horizons(spacetime);
   if (!hole) return {-1, 1, -1, 1};
   Extent extent{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};
   for (const Block& block : blocks_of(*hole, path))
@@ -216,7 +216,7 @@ std::string marks_note(const Spacetime& spacetime) {
     add(fmt::format("{}: the {}, r = {}", dashed ? "dashed" : "heavy", mark.name,
                     number_text(mark.r)));
   }
-  if (spacetime.is<ChargedHole>()) add("red: the singularity, r = 0");
+  if (two_horizons(spacetime)) add("red: the singularity, r = 0");
   note.front() = static_cast<char>(std::toupper(note.front()));
   return note + ".";
 }
@@ -243,7 +243,7 @@ PlaceOnPage draw_blocks_panel(Svg& page, const PageBox& box, const Spacetime& sp
   page.text({kNotes, box.top - 54}, "Carter\u2013Penrose diagram", {16, "#1b1e24", "start", true});
   page.begin_group("penrose");
   Blocks blocks(page, at, x(1) - x(0));
-  if (const auto* hole = std::get_if<ChargedHole>(&spacetime.kind()))
+  if (const auto hole = two_horizons(spacetime))
     blocks.charged(*hole, path);
   else
     blocks.wormhole(std::get<Wormhole>(spacetime.kind()));

@@ -24,6 +24,11 @@ std::string subtitle(const Show& show) {
     return fmt::format("{}  \u00b7  throat of {} km", text, number_text(wormhole->radius_km));
   if (const auto* hole = std::get_if<ChargedHole>(&show.spacetime.kind()))
     text += fmt::format("  \u00b7  charge {}", number_text(hole->charge));
+  if (const auto* spinning = std::get_if<SpinningHole>(&show.spacetime.kind())) {
+    text += fmt::format("  \u00b7  spin {}", number_text(static_cast<double>(spinning->kerr.spin)));
+    if (spinning->kerr.charge > 0)
+      text += fmt::format(", charge {}", number_text(static_cast<double>(spinning->kerr.charge)));
+  }
   return fmt::format("{}  \u00b7  {} solar masses, 1 M = {} s", text,
                      number_text(*show.spacetime.solar_masses()),
                      number_text(show.spacetime.seconds_per_m()));
@@ -39,7 +44,7 @@ void draw_title(Svg& page, const Show& show) {
 
 // The names of radii stand to the right of the box.  Those of a charge are longer.
 PageBox times_box(const Spacetime& spacetime) {
-  return {kLeft, 132, kPageWidth - (spacetime.is<ChargedHole>() ? 190 : 150), 372};
+  return {kLeft, 132, kPageWidth - (two_horizons(spacetime) ? 190 : 150), 372};
 }
 
 struct DrawnPage {

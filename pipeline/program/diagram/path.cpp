@@ -116,6 +116,9 @@ PenrosePoint place_in(const ChargedHole& hole, const Instant& i, double time_shi
   return penrose_point(hole, i.point.region, i.point.universe, i.tetrad, i.point.r,
                        i.null_time + sense_of_t(i.tetrad) * time_shift);
 }
+PenrosePoint place_in(const SpinningHole& hole, const Instant& i, double time_shift) {
+  return place_in(*two_horizons(Spacetime(hole)), i, time_shift);
+}
 PenrosePoint place_in(const Wormhole& wormhole, const Instant& i, double time_shift) {
   return penrose_point(wormhole, i.null_time - i.l + time_shift, i.l);
 }

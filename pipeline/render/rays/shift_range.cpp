@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/light/hole_optics.h"
+#include "pipeline/light/kerr_lens.h"
 #include "pipeline/light/lens_store.h"
 
 namespace domefall {
@@ -46,6 +47,27 @@ struct Plane {
   }
 };
 
+// Looks at directions evenly spread over the sky, and at its edge.
+std::optional<ShiftRange> range_near_spin(const SpinningHole& hole, const ObserverState& o,
+                                          SkyRegion sky) {
+  constexpr int kRows = 64, kAround = 128;
+  const KerrPlace at = kerr_place(hole, o);
+  const KerrEdge edge = sky == SkyRegion::kI ? KerrEdge::kSilhouette : KerrEdge::kRegionThree;
+  const double end = sky == SkyRegion::kI ? std::numbers::pi : 0, gamma = gamma_of(o.celerity);
+  ShiftRange range{HUGE_VAL, 0};
+  for (int j = 0; j < kAround; ++j) {
+    const double eta = 2 * std::numbers::pi * j / kAround;
+    const auto rim = static_cast<double>(critical_ray(at, eta, edge).delta);
+    for (int i = 0; i <= kRows; ++i) {
+      const double delta = rim + (end - rim) * i / kRows, s = std::sin(delta);
+      const V3d n(-std::cos(delta), -s * std::cos(eta), -s * std::sin(eta));
+      const double ratio = kerr_frequency_ratio(at, delta, eta) * (gamma + o.celerity.dot(n));
+      range = {std::min(range.least, ratio), std::max(range.largest, ratio)};
+    }
+  }
+  return range;
+}
+
 }  // namespace
 
 std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky, bool straight) {
@@ -56,6 +78,8 @@ std::optional<ShiftRange> frequency_range(const ObserverState& o, SkyRegion sky,
     const double hole = o.spacetime.gravitational_ratio(o.r);
     return ShiftRange{hole / (gamma + speed), hole * (gamma + speed)};
   }
+  if (const auto* hole = std::get_if<SpinningHole>(&o.spacetime.kind()))
+    return range_near_spin(*hole, o, sky);
   const HoleOptics optics = optics_of(o);
   const Celerity<ReferenceTetrad>& c = o.celerity;
   const Plane plane{gamma_of(c), c.x, std::hypot(c.y, c.z), optics.energy, optics.inward};

@@ -104,8 +104,40 @@ std::optional<SceneStar> StarImageFinder::with_gain(const SceneStar& catalogued)
 
 void StarImageFinder::append(const SceneStar& catalogued, std::vector<StarImage>& images) const {
   const auto star = with_gain(catalogued);
-  if (star)
+  if (star && points_->lists_images())
+    append_listed(*star, images);
+  else if (star)
     append_orders(*star, apply_transposed(axes_, star->direction.v), 0, points_->orders(), images);
+}
+
+// Appends the images of a lens that has no orders.
+void StarImageFinder::append_listed(const SceneStar& star, std::vector<StarImage>& images) const {
+  thread_local std::vector<SkyImage> listed;
+  listed.clear();
+  const double least = in_batches_ ? 1 / (star.flux * brightness_per_flux_) : 0;
+  const V3d source = apply_transposed(axes_, star.direction.v);
+  points_->list_images(source, radius_of(star), least, listed);
+  double most = 0;
+  for (const SkyImage& image : listed) most = std::max(most, image.amplification);
+  // Next to a caustic an image moves so much faster than its source as it is brighter, so that the mean
+  // over a frame's time is drawn.
+  const V3d way = scene_.motion.turn.cross(source);
+  const int parts = static_cast<int>(
+      std::clamp(std::ceil(2 * way.length() * most / scene_.point_spread.least()), 1.0, 256.0));
+  if (parts == 1) {
+    for (const SkyImage& image : listed)
+      append_image(star, out_of_lens(*scene_.tracer.lens(), image), images);
+    return;
+  }
+  listed.clear();
+  for (int k = 0; k < parts; ++k)
+    points_->list_images((source + way * ((k + 0.5) / parts - 0.5)).normalized(), radius_of(star),
+                         least, listed);
+  for (SkyImage& image : listed) {
+    image = out_of_lens(*scene_.tracer.lens(), image);
+    image.amplification /= parts;
+  }
+  append_trail(star, listed, images);
 }
 
 // Appends the images of the orders from `first` to before `end`.

@@ -90,6 +90,7 @@ class StarImageFinder {
   static int pieces_of(double sigmas, double peak, double& brightest);
   // Returns the least sigma of the frame about a direction, in radians before the boost.
   double least_sigma_at(const V3d& direction) const;
+  void append_listed(const SceneStar& star, std::vector<StarImage>& images) const;
   void append_orders(const SceneStar& star, const V3d& source, int first, int end,
                      std::vector<StarImage>& images) const;
   Received receive(const SceneStar& star, const SkyImage& at,

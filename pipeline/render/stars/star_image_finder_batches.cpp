@@ -73,7 +73,7 @@ std::size_t StarImageFinder::count(const SceneStars& stars) const {
 void StarImageFinder::append(const SceneStars& stars, std::size_t first, std::size_t end,
                              std::vector<StarImage>& images) const {
   end = std::min(end, first + kStarBatch);
-  if (!in_batches_) {
+  if (!in_batches_ || points_->lists_images()) {
     for (std::size_t k = first; k < end; ++k) append(stars[k], images);
     return;
   }

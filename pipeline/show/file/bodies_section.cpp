@@ -319,6 +319,10 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
   const Item* list = show.find("bodies");
   if (list == nullptr) return bodies;
   if (to.spacetime.is_flat()) list->fail("need a black hole: give the show black_hole.mass_solar");
+  if (to.spacetime.is<SpinningHole>()) {
+    list->fail("need a hole without spin: bodies about one that spins are not drawn yet");
+    return {};
+  }
   if (!list->node.IsMap()) {
     list->fail("must be a map of names and bodies, e.g. {beacon: {r: 10}}, got " + kind_of(*list));
     return bodies;

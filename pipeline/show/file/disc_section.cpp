@@ -105,6 +105,8 @@ std::vector<PatternKind> read_patterns(const Item& item, const Disc& disc, const
 std::optional<GasOrbits> orbits_of_gas(const Item& item, const Show& to) {
   if (to.spacetime.is_flat()) item.fail("needs a black hole: give the show black_hole.mass_solar");
   if (to.spacetime.is<Wormhole>()) item.fail("needs a black hole: nothing circles a wormhole");
+  if (to.spacetime.is<SpinningHole>())
+    item.fail("needs a hole without spin: gas about one that spins is not drawn yet");
   const auto* hole = std::get_if<ChargedHole>(&to.spacetime.kind());
   if (!hole) return GasOrbits();
   if (!hole->is_naked()) return GasOrbits(*hole);

@@ -30,6 +30,8 @@ constexpr std::string_view kRows = R"(
 ## black_hole
 | `mass_solar` | 0 to 1e13 solar masses; 0 is flat space: from 1e-20 on, or 0 for no hole | [0] |
 | `charge` | 0 to 100: its electric charge in units of its mass, [below](#a-charged-hole); above 1 with | [0] |
+| `spin` | 0 to 0.999999: its angular momentum in units of its mass squared, [below](#a-hole-that-spins) | [0] |
+| `axis` | the end of its axis from which it is seen to turn counter-clockwise: a [place on the sky](#places-on-the-sky) | the north of the first orbit |
 | `naked` | `true` or `false`: whether a charge above 1 is meant, which no horizon hides | [`false`] |
 | `at` | where the hole stands on the sky at the start: a [place on the sky](#places-on-the-sky) | [266.405, -28.936: the galactic centre] |
 | `heading_deg` | -360 to 360: in which direction orbits set out, from north through east | [90] |
@@ -131,6 +133,25 @@ constexpr std::string_view kRows = R"(
 ## end in a wormhole
 | `to_l` | -1e9 to 1e9: where it ends, beyond the throat if it has the other sign | |
 | `to_tau_m` | -1e15 to 1e15: the end by proper time | |
+## static about a spin
+| `r` | above 0, at most 1e9 M: outside the ergosphere, or outside the horizon with | required |
+| `dragged` | `true` or `false`: whether it turns with space, without angular momentum, and does not rest against the stars | [`false`] |
+| `latitude_deg` | -90 to 90: above the hole's equator | [0] |
+## circular about a spin
+| `r` | above 1, at most 1e9 M: of a free orbit in the equator | required |
+| `retrograde` | `true` or `false`: whether it goes against the spin | [`false`] |
+| `orbits` | 0 to 1e6 revolutions: how many orbits in the segment, as the stars see them | |
+## infall about a spin
+| `rest_r` | above 1, at most 1e9 M: from rest at this r, without angular momentum; else from far away | |
+| `latitude_deg` | -90 to 90: above the hole's equator, where the fall begins | [0] |
+| `angular_momentum` | -1e3 to 1e3 M: about the axis, of a fall from far away | [0] |
+## bound about a spin
+| `periastron` | above 1, at most 1e9 M: its smallest r | required |
+| `apoastron` | above 1, at most 1e9 M: its largest r; if both are alike, it stays on a sphere | required |
+| `inclination_deg` | 0 to 180: how far from the equator it goes; beyond 90 it goes against the spin; not 90 | [0] |
+## thrown about a spin
+| `from_r` | above 1, at most 1e9 M: where it is thrown | required |
+| `latitude_deg` | -90 to 90: above the hole's equator | [0] |
 ## path in a wormhole
 | `keyframes` | a list of places and times, with the keys below | required |
 ## keyframes in a wormhole

@@ -74,7 +74,8 @@ std::optional<FrameState> frame_between_horizons(const Show& show) {
 // of its segment, and what comes out of the white hole is inside at its start.  So it is enough to
 // test the frames next to the ends of segments and of dissolves.
 std::optional<FrameState> frame_within(const Show& show) {
-  if (show.spacetime.is<ChargedHole>()) return frame_between_horizons(show);
+  if (show.spacetime.is<ChargedHole>() || show.spacetime.is<SpinningHole>())
+    return frame_between_horizons(show);
   const int last = frame_count(show) - 1;
   std::vector<double> ends = segment_times(show);
   for (std::size_t k = 0; k < show.timeline.size(); ++k)
@@ -213,15 +214,20 @@ Effects read_effects(const Section& show) {
 
 void check_effects(const Item& root, const Show& show) {
   if (show.effects.lensing) return;
-  const auto found = frame_within(show);
-  if (!found) return;
   const auto effects = peek(root, "effects");
   const auto lensing = effects ? peek(*effects, "lensing") : std::nullopt;
-  (lensing ? *lensing : root)
-      .fail(fmt::format("can be false outside the horizon only (r > {}), but frame {}, in "
-                        "timeline[{}], lies at r = {} (units of M)",
-                        short_number(show.spacetime.horizon()), found->frame, found->segment + 1,
-                        short_number(found->observer.r)));
+  const Item& asked = lensing ? *lensing : root;
+  if (show.spacetime.is<SpinningHole>()) {
+    asked.fail("must be true about a hole that spins");
+    return;
+  }
+  const auto found = frame_within(show);
+  if (!found) return;
+  asked.fail(
+      fmt::format("can be false outside the horizon only (r > {}), but frame {}, in "
+                  "timeline[{}], lies at r = {} (units of M)",
+                  short_number(show.spacetime.horizon()), found->frame, found->segment + 1,
+                  short_number(found->observer.r)));
 }
 
 GradeSettings read_grade(const Section& show, const Lookup& lookup) {

@@ -20,11 +20,30 @@ constexpr double kGalacticCentreRaDeg = 266.405, kGalacticCentreDecDeg = -28.936
 // This mass still keeps proper times finite.  Holes as light as this have long evaporated.
 constexpr double kFewestSolarMasses = 1e-20;
 
+double read_spin(const Section& s, double charge) {
+  const double spin = s.number("spin");
+  const Item* given = s.find("spin");
+  if (!given) {
+    if (const Item* axis = s.find("axis"))
+      axis->fail("is that of a hole that spins; give its spin");
+    return 0;
+  }
+  if (charge > 1) given->fail("is not of a hole whose charge exceeds 1");
+  constexpr double kMost = 0.999999;
+  if (spin > 0 && charge > 0 && spin * spin + charge * charge > kMost * kMost)
+    given->fail(fmt::format(
+        "must be at most {} with a charge of {}, got {}: the squares of both may not exceed {}, or "
+        "the horizons would meet",
+        short_number(std::sqrt(std::max(0.0, kMost * kMost - charge * charge))),
+        short_number(charge), as_written(*given), short_number(kMost * kMost)));
+  return spin;
+}
+
 // Reads the spacetime.  With a mass that is misspelt or in error, the rest of the show is still
 // checked as one with a hole.
 Spacetime read_spacetime(const Section& s) {
   if (!s.find("mass_solar") && !s.is_misspelt("mass_solar")) {
-    for (const char* key : {"charge", "naked"})
+    for (const char* key : {"charge", "naked", "spin", "axis"})
       if (const Item* given = s.find(key)) given->fail("is of a hole, which needs mass_solar");
     return FlatSpace{};
   }
@@ -49,6 +68,8 @@ Spacetime read_spacetime(const Section& s) {
         as_written(*s.find("charge"))));
   if (naked && !(charge > 1) && (charge_given || !s.find("charge")))
     s.find("naked")->fail("is for a charge above 1; with less, a horizon hides the singularity");
+  const double spin = read_spin(s, charge);
+  if (spin > 0) return SpinningHole{mass.value_or(1), {spin, charge}};
   if (charge > 0) return ChargedHole(mass.value_or(1), charge);
   return Schwarzschild{mass.value_or(1)};
 }
@@ -60,6 +81,14 @@ void read_black_hole(const Section& section, Lookup& lookup, Show& show) {
     show.hole_at = read_sky_place(*at, lookup).value_or(show.hole_at);
   show.heading = s.angle("heading_deg");
   show.spacetime = read_spacetime(s);
+  if (!show.spacetime.is<SpinningHole>()) return;
+  SpinningHole hole = std::get<SpinningHole>(show.spacetime.kind());
+  // The north of an orbit is against Theta.
+  V3d axis = -column(place_tetrad(show.hole_at, show.heading, 0), 1);
+  if (const Item* given = s.find("axis"))
+    axis = read_sky_place(*given, lookup).value_or(SkyDirection{axis}).v;
+  hole.axis = {axis.x, axis.y, axis.z};
+  show.spacetime = hole;
 }
 
 // A show has a black hole or a wormhole.

@@ -252,9 +252,10 @@ void read_sky(const Item& root, const Section& section, Lookup& lookup, Show& sh
     show.sky[region] = read;
   }
   if (const Item* four = sky.find(kSkyKeys[SkyRegion::kIV])) {
-    if (show.spacetime.is<ChargedHole>() || show.spacetime.is<Wormhole>())
+    if (!show.spacetime.is_flat() && !show.spacetime.is<Schwarzschild>())
       four->fail(
-          "is the light of the past singularity, which is seen of holes without charge only");
+          "is the light of the past singularity, which is seen of holes without charge and spin "
+          "only");
     read_region_four(*four, lookup, show.sky[SkyRegion::kIV]);
   }
   show.panorama_shift.blueshift_power = sky.number("blueshift_power");

@@ -193,48 +193,52 @@ using Reader = std::optional<TimedTrajectory> (*)(const Item& item, const Stage&
                                                   Lookup& lookup);
 
 // A Type holds the word for a kind of trajectory, whether flat space has that kind, and its readers
-// near a hole and in a wormhole.  A null reader goes with the reason why there is no such motion, as
+// near a hole, in a wormhole and about a hole that spins.  A null reader goes with the reason why there is no such motion, as
 // does a charge that has none.
 struct Type {
   std::string_view name;
   bool in_flat_space;
-  Reader near_hole, in_wormhole;
+  Reader near_hole, in_wormhole, about_spin;
   std::string_view not_in_wormhole = {}, not_near_charge = {}, not_when_naked = {};
 };
 
 constexpr std::string_view kNothingPulls =
     "nothing pulls in a wormhole: what moves freely there is of type infall or thrown";
+constexpr std::string_view kNotAboutSpin =
+    "about a hole that spins the types are static, circular, bound, infall, thrown and continue";
 constexpr std::string_view kNoBodies = "bodies move near holes without charge only";
 
 // These are the types of trajectory that a show can name.  Those that a body can follow come first.
 constexpr std::array kTypes{
-    Type{"static", true, read_static, read_wormhole_rest},
-    Type{"circular", false, read_circular, read_wormhole_circle},
-    Type{"parabolic", false, read_parabolic, nullptr, kNothingPulls},
-    Type{"hyperbolic", false, read_hyperbolic, nullptr, kNothingPulls},
-    Type{"bound", false, read_bound, nullptr, kNothingPulls},
-    Type{"infall", false, read_infall, read_wormhole_fall},
-    Type{"thrown", false, read_thrown, read_wormhole_throw},
-    Type{"kruskal", false, read_kruskal, nullptr,
+    Type{"static", true, read_static, read_wormhole_rest, read_spin_rest},
+    Type{"circular", false, read_circular, read_wormhole_circle, read_spin_circle},
+    Type{"parabolic", false, read_parabolic, nullptr, nullptr, kNothingPulls},
+    Type{"hyperbolic", false, read_hyperbolic, nullptr, nullptr, kNothingPulls},
+    Type{"bound", false, read_bound, nullptr, read_spin_bound, kNothingPulls},
+    Type{"infall", false, read_infall, read_wormhole_fall, read_spin_fall},
+    Type{"thrown", false, read_thrown, read_wormhole_throw, read_spin_throw},
+    Type{"kruskal", false, read_kruskal, nullptr, nullptr,
          "a wormhole has no horizon, and no singularity to come from",
          "the singularity of a charge repels, and nothing comes out of it"},
     Type{"spiral",
          false,
          read_spiral,
          nullptr,
+         nullptr,
          "nothing pulls in a wormhole: give a path, whose keyframes may go around and in",
          {},
          "nothing falls into a naked singularity; give a path"},
-    Type{"braked", false, read_braked, nullptr,
+    Type{"braked", false, read_braked, nullptr, nullptr,
          "a path whose last keyframe has speed: 0 comes to a stop in a wormhole"},
-    Type{"path", false, read_path, read_wormhole_path},
-    Type{"velocity", true, read_velocity, read_wormhole_velocity},
-    Type{"body", false, read_with_body, nullptr, kNoBodies, kNoBodies},
-    Type{"continue", true, read_continue, read_continue}};
+    Type{"path", false, read_path, read_wormhole_path, nullptr},
+    Type{"velocity", true, read_velocity, read_wormhole_velocity, nullptr},
+    Type{"body", false, read_with_body, nullptr, nullptr, kNoBodies, kNoBodies},
+    Type{"continue", true, read_continue, read_continue, read_continue}};
 
 // Says why a type of motion does not exist there.  Nothing is said of one that does.
 std::string_view why_not(const Type& type, const Spacetime& spacetime) {
   if (spacetime.is<Wormhole>()) return type.not_in_wormhole;
+  if (spacetime.is<SpinningHole>()) return type.about_spin ? std::string_view() : kNotAboutSpin;
   const auto* charged = std::get_if<ChargedHole>(&spacetime.kind());
   if (charged && charged->is_naked() && !type.not_when_naked.empty()) return type.not_when_naked;
   return charged ? type.not_near_charge : std::string_view();
@@ -303,7 +307,9 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
   if (has_region_one_alone(stage.spacetime))
     if (const auto region = peek(item, "region"); region && !is_word(*region, "I"))
       return region->fail("must be I, which a hole with a charge of 1 or more has alone");
-  const Reader reader = stage.spacetime.is<Wormhole>() ? kind.in_wormhole : kind.near_hole;
+  const Reader reader = stage.spacetime.is<Wormhole>()       ? kind.in_wormhole
+                        : stage.spacetime.is<SpinningHole>() ? kind.about_spin
+                                                             : kind.near_hole;
   const auto read = reader(item, stage, lookup);
   return read && turns_within_shows(item, *read) ? read : std::nullopt;
 }

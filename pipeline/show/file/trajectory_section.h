@@ -133,6 +133,14 @@ std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage&
 std::optional<TimedTrajectory> read_wormhole_velocity(const Item& item, const Stage& stage,
                                                       Lookup& lookup);
 
+// The same about a hole that spins.
+std::optional<TimedTrajectory> read_spin_rest(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_spin_circle(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_spin_bound(const Item& item, const Stage& stage, Lookup&);
+std::optional<TimedTrajectory> read_spin_throw(const Item& item, const Stage& stage,
+                                               Lookup& lookup);
+
 // Returns a circle in its segment, with as many orbits as the rate makes.
 std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, const Stage& stage,
                                             const Trajectory& circle, double period,

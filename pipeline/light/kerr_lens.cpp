@@ -1,0 +1,203 @@
+#include "pipeline/light/kerr_lens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/light/kerr_points.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+// The corners of a border.
+constexpr int kCorners = 4096;
+
+// The unit vectors of view in which delta grows, and across that eta.  n is minus the photon's.
+struct ViewAxes {
+  V3d by_delta, across;
+
+  ViewAxes(double delta, double eta) {
+    const double c = std::cos(delta), s = std::sin(delta), ce = std::cos(eta), se = std::sin(eta);
+    by_delta = {s, -c * ce, -c * se};
+    across = {0, se, -ce};
+  }
+};
+
+V3d direction_of(double delta, double eta) {
+  const double s = std::sin(delta);
+  return {-std::cos(delta), -s * std::cos(eta), -s * std::sin(eta)};
+}
+
+// Fills in the derivative by its singular values.
+void set_derivative(const V3d& d, const V3d& e, const ViewAxes& view, const V3d& sky,
+                    ViewRay& ray) {
+  const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e);
+  const double angle = std::atan2(2 * de, dd - ee) / 2, c = std::cos(angle), s = std::sin(angle);
+  const V3d longest = d * c + e * s;
+  ray.axis = view.by_delta * c + view.across * s;
+  ray.scale_along = longest.length();
+  ray.along = ray.scale_along > 0 ? longest / ray.scale_along : V3d(0, 0, 0);
+  const V3d other = e * c - d * s;
+  ray.scale_across = other.length();
+  // by_delta x across is -n: the view looks along n.
+  ray.mirrored = sky.cross(ray.along).dot(other) > 0;
+}
+
+}  // namespace
+
+KerrPlace kerr_place(const SpinningHole& hole, const ObserverState& observer) {
+  return {hole.kerr, observer.r, polar_angle(observer, hole)};
+}
+
+KerrLens::KerrLens(std::shared_ptr<const KerrCharts> charts, const M33d& sky_from_tetrad)
+    : charts_(std::move(charts)),
+      sine_(std::sin(static_cast<double>(charts_->at.theta))),
+      cosine_(std::cos(static_cast<double>(charts_->at.theta))) {
+  const V3d r = column(sky_from_tetrad, 0), theta = column(sky_from_tetrad, 1);
+  axes_ = from_columns(r * sine_ + theta * cosine_, column(sky_from_tetrad, 2),
+                       r * cosine_ - theta * sine_);
+}
+
+const KerrChart* KerrLens::chart(SkyRegion sky) const {
+  return sky == SkyRegion::kI     ? charts_->own.get()
+         : sky == SkyRegion::kIII ? charts_->beyond.get()
+                                  : nullptr;
+}
+
+// Where a direction comes from.
+struct KerrLens::Seen {
+  double delta, eta, to_edge = HUGE_VAL;
+  const KerrChart* chart = nullptr;
+  KerrChart::Edge edge{};
+};
+
+KerrLens::Seen KerrLens::seen(const V3d& n) const {
+  const double beside = std::hypot(n.y, n.z);
+  Seen seen{std::atan2(beside, -n.x), beside > 0 ? std::atan2(-n.z, -n.y) : 0};
+  const double sine = std::max(beside, 1e-3);
+  for (const KerrChart* one : {charts_->own.get(), charts_->beyond.get()}) {
+    if (!one) continue;
+    const KerrChart::Edge edge = one->edge(seen.eta);
+    const double away = seen.delta - edge.delta;
+    seen.to_edge = std::min(seen.to_edge, std::abs(away) / std::hypot(1, edge.slope / sine));
+    if ((one->end() > 0) == (away > 0) && away != 0) seen.chart = one, seen.edge = edge;
+  }
+  return seen;
+}
+
+void KerrLens::rays(const DirectionBatch& n, int count, ViewRayBatch& batch) const {
+  for (int k = 0; k < count; ++k) {
+    const Seen at = seen({n.x[k], n.y[k], n.z[k]});
+    batch.to_edge[k] = at.to_edge;
+    batch.emission_time[k] = batch.time_scale[k] = 0;
+    if (!at.chart) {
+      batch.sky[k] = SkyRegion::kIV;
+      batch.sky_x[k] = batch.sky_y[k] = batch.sky_z[k] = 0;
+      batch.along_x[k] = batch.along_y[k] = batch.along_z[k] = 0;
+      batch.scale_along[k] = batch.scale_across[k] = 0;
+      batch.frequency_ratio[k] = 1;
+      continue;
+    }
+    batch.sky[k] = at.chart->sky() == KerrEdge::kSilhouette ? SkyRegion::kI : SkyRegion::kIII;
+    const KerrChart::Place place = at.chart->place(at.delta, at.eta, at.edge);
+    ViewRay ray;
+    set_derivative(place.by_delta, place.across, ViewAxes(at.delta, at.eta), place.sky, ray);
+    const V3d sky = apply(axes_, place.sky), along = apply(axes_, ray.along);
+    batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
+    batch.along_x[k] = along.x, batch.along_y[k] = along.y, batch.along_z[k] = along.z;
+    batch.scale_along[k] = ray.scale_along, batch.scale_across[k] = ray.scale_across;
+    batch.frequency_ratio[k] = kerr_frequency_ratio(charts_->at, at.delta, at.eta);
+  }
+}
+
+ViewRay KerrLens::ray(const V3d& n) const {
+  const Seen at = seen(n);
+  ViewRay ray;
+  ray.sky_direction = V3d(0, 0, 0);
+  ray.to_edge = at.to_edge;
+  const auto trace = [&](double delta, double eta) {
+    return trace_kerr(charts_->at, {delta, eta});
+  };
+  const TracedKerr exact = trace(at.delta, at.eta);
+  if (exact.origin == KerrOrigin::kPastHorizon) return ray;
+  ray.sky = exact.origin == KerrOrigin::kOwn ? SkyRegion::kI : SkyRegion::kIII;
+  ray.known = chart(ray.sky) != nullptr;
+  if (!ray.known) return ray;
+  set_derivative(exact.by_delta, exact.across, ViewAxes(at.delta, at.eta), exact.sky, ray);
+  ray.sky_direction = apply(axes_, exact.sky);
+  ray.along = apply(axes_, ray.along);
+  ray.frequency_ratio = 1 / std::abs(exact.energy);
+  const double area = 1 / exact.amplification;
+  // By how much the area changes, from two rays beside it on the sky's side.
+  const double step = std::min(1e-4, at.to_edge / 16), sine = std::max(std::sin(at.delta), 1e-6);
+  const auto change = [&](double delta, double eta) {
+    const TracedKerr beside = trace(delta, eta);
+    return beside.origin == exact.origin ? (1 / beside.amplification - area) / step : 0;
+  };
+  ray.bundle.patch = SkyPatch{
+      area, std::hypot(change(at.delta + step, at.eta), change(at.delta, at.eta + step / sine))};
+  return ray;
+}
+
+std::vector<SkyBorder> KerrLens::borders() const {
+  std::vector<SkyBorder> borders;
+  for (const KerrChart* one : {charts_->own.get(), charts_->beyond.get()}) {
+    if (!one) continue;
+    std::vector<V3d> corners;
+    corners.reserve(kCorners);
+    // Counter-clockwise about -R, as seen from where the directions begin.
+    for (int k = 0; k < kCorners; ++k) {
+      const double eta = -2 * pi * k / kCorners;
+      corners.push_back(direction_of(one->edge(eta).delta, eta));
+    }
+    const bool own = one->sky() == KerrEdge::kSilhouette;
+    borders.push_back({corners, !own, own ? SkyRegion::kI : SkyRegion::kIII});
+  }
+  return borders;
+}
+
+std::unique_ptr<const SkyPoints> KerrLens::points(SkyRegion sky,
+                                                  const std::optional<PointTolerance>&) const {
+  const KerrChart* one = chart(sky);
+  return one ? std::make_unique<KerrPoints>(*one, sine_, cosine_) : nullptr;
+}
+
+// From the nearest of a coarse grid of rays, by Newton's method on exact rays.
+V3d KerrLens::primary_image(const V3d& source) const {
+  const V3d place(source.x * sine_ + source.y * cosine_, source.z,
+                  source.x * cosine_ - source.y * sine_);
+  constexpr int kRings = 24, kAround = 24;
+  double best = -2, delta = pi, eta = 0;
+  const auto trace = [&](double d, double e) { return trace_kerr(charts_->at, {d, e}); };
+  for (int i = 0; i < kRings; ++i)
+    for (int j = 0; j < kAround; ++j) {
+      const double e = 2 * pi * j / kAround, d = pi * (i + 0.5) / kRings;
+      const TracedKerr ray = trace_kerr_without_area(charts_->at, {d, e});
+      if (ray.origin != KerrOrigin::kOwn) continue;
+      // Farther from the hole counts a little more, so that of two images the brighter is taken.
+      const double near = ray.sky.dot(place) + 0.02 * d;
+      if (near > best) best = near, delta = d, eta = e;
+    }
+  V3d n = direction_of(delta, eta);
+  for (int step = 0; step < 30; ++step) {
+    delta = std::atan2(std::hypot(n.y, n.z), -n.x), eta = std::atan2(-n.z, -n.y);
+    const TracedKerr ray = trace(delta, eta);
+    if (ray.origin != KerrOrigin::kOwn) break;
+    const V3d off = place - ray.sky * place.dot(ray.sky);
+    const V3d &d = ray.by_delta, &e = ray.across;
+    const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e), det = dd * ee - de * de;
+    if (!(det > 0)) break;
+    double x = (off.dot(d) * ee - off.dot(e) * de) / det,
+           y = (off.dot(e) * dd - off.dot(d) * de) / det;
+    const double length = std::hypot(x, y), most = 0.2;
+    if (length > most) x *= most / length, y *= most / length;
+    const ViewAxes view(delta, eta);
+    n = (n + view.by_delta * x + view.across * y).normalized();
+    if (length < 1e-15) break;
+  }
+  return n;
+}
+
+}  // namespace domefall

@@ -1,0 +1,165 @@
+// Reads trajectories about a hole that spins.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/show/file/orbit_reading.h"
+#include "pipeline/show/file/trajectory_section.h"
+
+namespace domefall {
+namespace {
+
+constexpr double kRightAngle = std::numbers::pi / 2;
+
+const SpinningHole& hole_of(const Stage& stage) {
+  return std::get<SpinningHole>(stage.spacetime.kind());
+}
+
+// Returns the angle from the axis.
+double read_theta(const Section& s) { return kRightAngle - s.angle("latitude_deg"); }
+
+Range outside(const Stage& stage) {
+  return kUnitsOfM.above(stage.spacetime.horizon())
+      .because("everything falls at and inside the horizon")
+      .at_most(kFarthest);
+}
+
+std::optional<TimedTrajectory> falling(const Section& s, const Stage& stage, const Item& item,
+                                       double r, double theta, const KerrMotion& motion,
+                                       const Defaults& defaults) {
+  const auto orbit =
+      made(s, item, [&] { return KerrOrbit(hole_of(stage).kerr, r, theta, motion); });
+  const auto timing = orbit ? read_timing(s, stage, *orbit, defaults) : std::nullopt;
+  if (!timing) return std::nullopt;
+  return TimedTrajectory{*orbit, *timing, {}};
+}
+
+}  // namespace
+
+std::optional<TimedTrajectory> read_spin_rest(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "static about a spin", "rates"});
+  const KerrHole& hole = hole_of(stage).kerr;
+  const auto r = s.required("r", outside(stage));
+  const double theta = read_theta(s);
+  const bool dragged = s.flag("dragged");
+  Timing timing{0, proper_time_in(stage, stage.duration_s)};
+  if (find_end(s, {})) {
+    const auto rate = read_rate(s, stage);
+    if (!rate) return std::nullopt;
+    timing = {0, rate->span, Pace::kSteady, rate->begin, rate->end};
+  }
+  if (!r) return std::nullopt;
+  const KerrCircling rest{hole, *r, theta, dragged ? dragged_velocity(hole, *r, theta) : 0};
+  if (!kerr_circling(hole, *r, theta, rest.angular_velocity)) {
+    const auto a = static_cast<double>(hole.spin), q = static_cast<double>(hole.charge);
+    const double along = a * std::cos(theta);
+    return s.find("r")->fail(fmt::format(
+        "must exceed {} (units of M) at that latitude, got {}: within the ergosphere nothing rests "
+        "against the stars; with dragged: true it turns with the hole",
+        short_number(1 + std::sqrt(1 - along * along - q * q)), as_written(*s.find("r"))));
+  }
+  return TimedTrajectory{rest, timing, {}};
+}
+
+std::optional<TimedTrajectory> read_spin_circle(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "circular about a spin", "rates", "pace"});
+  find_end(s, {"orbits"});
+  const KerrHole& hole = hole_of(stage).kerr;
+  const bool retrograde = s.flag("retrograde");
+  const auto r = s.required("r", kUnitsOfM.above(kerr_light_circle(hole, !retrograde))
+                                     .because("at the light circle an orbit needs the speed of "
+                                              "light, below it more")
+                                     .at_most(kFarthest));
+  const auto circle = r ? kerr_circle(hole, *r, !retrograde) : std::nullopt;
+  if (!circle) return std::nullopt;
+  const double turn = 2 * std::numbers::pi / std::abs(circle->angle);
+  const auto rate = read_rate(s, stage, turn);
+  if (!rate) return std::nullopt;
+  return paced_circle(item, s, stage,
+                      KerrCircling{hole, *r, kRightAngle, circle->angle / circle->time}, turn,
+                      *rate, false);
+}
+
+// Falls from rest far away, or without angular momentum from rest nearby.
+std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "begin", "infall about a spin", "end", "rates", "pace"});
+  const KerrHole& hole = hole_of(stage).kerr;
+  const auto a = static_cast<double>(hole.spin);
+  const double theta = read_theta(s), sine = std::sin(theta), cosine = std::cos(theta);
+  const auto rest_r = s.given("rest_r");
+  const double momentum = s.number("angular_momentum");
+  Defaults defaults;
+  defaults.to_r = std::max(0.05, stage.spacetime.inner_horizon() * 1.01);
+  if (s.find("rest_r")) {
+    if (!rest_r || !in_range(*s.find("rest_r"), *rest_r, outside(stage))) return std::nullopt;
+    if (const Item* given = s.find("angular_momentum"))
+      return given->fail("is of a fall from far away; from rest_r all falls without");
+    defaults.tau = 0;
+    const auto motion = kerr_circling(hole, *rest_r, theta, dragged_velocity(hole, *rest_r, theta));
+    return falling(s, stage, item, *rest_r, theta, motion.value(), defaults);
+  }
+  const auto from_r = s.required("from_r");
+  if (!from_r) return std::nullopt;
+  if (!(*from_r > stage.spacetime.inner_horizon()))
+    return s.find("from_r")->fail(fmt::format("must exceed {} (units of M), the inner horizon",
+                                              short_number(stage.spacetime.inner_horizon())));
+  if (sine < 1e-9 && momentum != 0)
+    return s.find("angular_momentum")->fail("must be 0 on the axis");
+  // It neither rises nor sinks at from_r.
+  const double around = sine > 0 ? momentum / sine - a * sine : 0, over = momentum - a;
+  const double carter_q = a * a * cosine * cosine + around * around - over * over;
+  const auto motion = kerr_motion(hole, *from_r, theta, 1, momentum, carter_q, -1, 0);
+  if (!motion)
+    return s.find("angular_momentum")
+        ->fail(fmt::format("is too much for a fall from infinity to come to r = {}",
+                           short_number(*from_r)));
+  defaults.tau = 0;
+  return falling(s, stage, item, *from_r, theta, *motion, defaults);
+}
+
+std::optional<TimedTrajectory> read_spin_bound(const Item& item, const Stage& stage, Lookup&) {
+  const Section s(item, {"trajectory", "begin", "bound about a spin", "end", "rates", "pace"});
+  const KerrHole& hole = hole_of(stage).kerr;
+  const auto least = s.required("periastron", outside(stage));
+  const auto most = s.required("apoastron", outside(stage));
+  const double inclination = s.angle("inclination_deg");
+  if (!least || !most) return std::nullopt;
+  if (*most < *least)
+    return s.find("apoastron")
+        ->fail(fmt::format("must be at least the periastron, {}, got {}", short_number(*least),
+                           as_written(*s.find("apoastron"))));
+  const auto motion = kerr_bound(hole, *least, *most, inclination);
+  if (!motion)
+    return s.find("periastron")
+        ->fail(fmt::format("must be greater, got {}: with this apoastron and inclination no orbit "
+                           "turns there",
+                           as_written(*s.find("periastron"))));
+  Defaults defaults;
+  defaults.tau = 0;
+  return falling(s, stage, item, *least, kRightAngle, *motion, defaults);
+}
+
+std::optional<TimedTrajectory> read_spin_throw(const Item& item, const Stage& stage,
+                                               Lookup& lookup) {
+  const Section s(item, {"trajectory", "thrown about a spin", "speed", "end", "rates", "pace"});
+  const KerrHole& hole = hole_of(stage).kerr;
+  const auto from_r = s.required("from_r", outside(stage));
+  const double theta = read_theta(s);
+  if (!from_r) return std::nullopt;
+  GivenVelocity frame;
+  frame.r = *from_r;
+  frame.celerity =
+      kerr_circling(hole, *from_r, theta, dragged_velocity(hole, *from_r, theta))->celerity;
+  const auto own = read_own_celerity(s, stage, frame, lookup);
+  if (!own) return std::nullopt;
+  const KerrMotion motion = kerr_motion(
+      hole, *from_r, theta,
+      celerity_against(frame.celerity, Celerity<GivenFrame>(V3d(own->x, own->y, own->z))));
+  const auto orbit = made(s, item, [&] { return KerrOrbit(hole, *from_r, theta, motion); });
+  const auto timing = orbit ? read_end(s, stage, *orbit, 0) : std::nullopt;
+  if (!timing) return std::nullopt;
+  return TimedTrajectory{*orbit, *timing, {}};
+}
+
+}  // namespace domefall

@@ -1,0 +1,101 @@
+// Shows about a hole that spins.
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/show/attitude.h"
+#include "tests/pipeline/show/show_file.h"
+
+namespace domefall {
+namespace {
+
+class SpinShow : public ObservedShow {
+ protected:
+  Show show_with(const std::string& hole, const std::string& trajectories) {
+    return read("black_hole: {mass_solar: 4e6, " + hole + "}\ntimeline:\n" + trajectories);
+  }
+  std::string complaint_of(const std::string& trajectory) {
+    return complaint("black_hole: {mass_solar: 4e6, spin: 0.9}\ntimeline:\n" +
+                     ("  - {duration_s: 2, trajectory: " + trajectory + "}\n"));
+  }
+  static V3d axis(const Show& s) { return axis_of(std::get<SpinningHole>(s.spacetime.kind())); }
+};
+
+TEST_F(SpinShow, TurnsAboutTheNorthOfItsOrbits) {
+  const Show s = show_with(
+      "spin: 0.9, at: {ra_deg: 30, dec_deg: 10}, heading_deg: 40",
+      "  - {duration_s: 8, trajectory: {type: circular, r: 6, orbits: 1}}\n"
+      "  - {duration_s: 8, trajectory: {type: circular, r: 6, orbits: 0.25, retrograde: true}}\n");
+  const ObserverState o = at(s, 0);
+  EXPECT_NEAR(polar_angle(o, std::get<SpinningHole>(s.spacetime.kind())), std::numbers::pi / 2,
+              1e-14);
+  EXPECT_LT((column(o.sky_from_tetrad, 0) + s.hole_at.v).length(), 1e-14);
+  EXPECT_LT((column(o.sky_from_tetrad, 1) + axis(s)).length(), 1e-14);
+  // After a turn, as the stars see it, the observer is back; and a quarter turn against the spin on.
+  EXPECT_LT((column(at(s, 8).sky_from_tetrad, 0) + s.hole_at.v).length(), 1e-12);
+  EXPECT_NEAR(column(at(s, 16).sky_from_tetrad, 0).dot(column(o.sky_from_tetrad, 2)), -1, 1e-12);
+  EXPECT_NEAR(at(s, 16).azimuth, 1.5 * std::numbers::pi, 1e-12);
+}
+
+TEST_F(SpinShow, HasAnAxisOfItsOwn) {
+  const Show s = show_with("spin: 0.5, charge: 0.2, axis: {ra_deg: 200, dec_deg: 60}",
+                           "  - {duration_s: 8, trajectory: {type: static, r: 6, latitude_deg: 20, "
+                           "dragged: true}}\n");
+  EXPECT_LT((axis(s) - sky_direction(200, 60).v).length(), 1e-15);
+  const ObserverState o = at(s, 4);
+  EXPECT_NEAR(column(o.sky_from_tetrad, 0).dot(axis(s)), std::sin(20 * std::numbers::pi / 180),
+              1e-14);
+  // Who has no angular momentum is at rest, and turns with the hole.
+  EXPECT_NEAR(static_celerity(o).length(), 0, 1e-14);
+  EXPECT_GT(o.azimuth, 0);
+  EXPECT_NEAR(o.sky_from_tetrad.determinant(), 1, 1e-14);
+}
+
+TEST_F(SpinShow, GoesOnFromSegmentToSegment) {
+  const Show s =
+      show_with("spin: 0.9",
+                "  - {duration_s: 5, trajectory: {type: bound, periastron: 5, apoastron: 9, "
+                "inclination_deg: 50}}\n"
+                "  - {duration_s: 5, trajectory: {type: continue, rate_m_per_s: 20}}\n"
+                "  - {duration_s: 5, trajectory: {type: infall, from_r: 4, latitude_deg: -90}}\n");
+  const ObserverState a = observer_at(s, 0, 1), b = observer_at(s, 1, 0);
+  EXPECT_NEAR(a.r, b.r, 1e-12);
+  EXPECT_NEAR(a.azimuth, b.azimuth, 1e-12);
+  EXPECT_NEAR(a.null_time, b.null_time, 1e-12);
+  EXPECT_LT((a.celerity - b.celerity).length(), 1e-12);
+  EXPECT_LT((column(a.sky_from_tetrad, 0) - column(b.sky_from_tetrad, 0)).length(), 1e-12);
+  // Down the axis to the inner horizon, without a jump of the azimuth.
+  const ObserverState end = at(s, 15);
+  EXPECT_LT((column(end.sky_from_tetrad, 0) + axis(s)).length(), 1e-12);
+  EXPECT_EQ(end.region, Region::kII);
+  EXPECT_NEAR(end.r, 1.01 * s.spacetime.inner_horizon(), 1e-12);
+  // The motion is downwards.
+  EXPECT_LT(motion_direction(at(s, 11)).x, 0);
+}
+
+TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
+  const auto has = [](const std::string& told, const char* text) {
+    EXPECT_NE(told.find(text), std::string::npos) << told;
+  };
+  has(complaint("black_hole: {mass_solar: 4, spin: 0.9, charge: 0.8}\n"),
+      "black_hole.spin must be at most 0.599998");
+  has(complaint("black_hole: {mass_solar: 4, spin: 1}\n"), "spin must be at most 0.999999, got 1");
+  has(complaint("black_hole: {mass_solar: 4, axis: {ra_deg: 1, dec_deg: 2}}\n"),
+      "axis is that of a hole that spins");
+  has(complaint("black_hole: {spin: 0.5}\n"), "spin is of a hole, which needs mass_solar");
+  has(complaint("black_hole: {mass_solar: 4, spin: 0.5}\ndisc: {}\n"),
+      "gas about one that spins is not drawn yet");
+  has(complaint("black_hole: {mass_solar: 4, spin: 0.5}\nbodies: {a: {r: 9}}\n"),
+      "bodies about one that spins are not drawn yet");
+  has(complaint_of("{type: static, r: 1.9}"),
+      "must exceed 2 (units of M) at that latitude, got 1.9");
+  has(complaint_of("{type: static, r: 1.4, dragged: true}"), "must exceed 1.43588989");
+  has(complaint_of("{type: circular, r: 1.5}"), "must exceed 1.5578");
+  has(complaint_of("{type: circular, r: 3.9, retrograde: true}"), "must exceed 3.9102");
+  has(complaint_of("{type: bound, periastron: 1.7, apoastron: 9}"), "periastron must be greater");
+  has(complaint_of("{type: bound, periastron: 7, apoastron: 6}"), "at least the periastron, 7");
+  has(complaint_of("{type: infall, from_r: 9, angular_momentum: 90}"), "is too much for a fall");
+  has(complaint_of("{type: path, keyframes: []}"), "the types are static, circular, bound");
+}
+
+}  // namespace
+}  // namespace domefall
