@@ -81,7 +81,7 @@ std::optional<KerrMotion> kerr_circling(const KerrHole& hole, double r, double t
                                         double velocity) {
   const Metric g(hole, r, theta);
   const double own = g.tt() + 2 * velocity * g.tphi() - velocity * velocity * g.sine2 * g.around(r);
-  const double delta = static_cast<double>(hole.delta(r));
+  const auto delta = static_cast<double>(hole.delta(r));
   if (!(own > 0 && r > static_cast<double>(hole.horizon()))) return std::nullopt;
   const double time = 1 / std::sqrt(own);
   const double energy = time * (g.tt() + velocity * g.tphi());
@@ -116,7 +116,7 @@ std::optional<KerrMotion> kerr_bound(const KerrHole& hole, double periastron, do
     double d, f, g, h;
   };
   const auto turn = [&](double r) {
-    const double delta = static_cast<double>(hole.delta(r));
+    const auto delta = static_cast<double>(hole.delta(r));
     return Turn{(r * r + a * a * z) * delta,
                 r * r * r * r + a * a * (r * (r + 2) - q * q + z * delta), a * (2 * r - q * q),
                 r * (r - 2) + q * q + z / open * delta};

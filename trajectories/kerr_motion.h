@@ -17,7 +17,7 @@ struct KerrMotion {
 };
 // Returns those of what moves with a celerity against the reference tetrad.  theta is 0 to pi.
 KerrMotion kerr_motion(const KerrHole& hole, double r, double theta,
-                       const Celerity<ReferenceTetrad>& celerity);
+                       const Celerity<ReferenceTetrad>& u);
 // Returns that of given constants, with the signs of dr and dtheta.  What is outside the bounds of its
 // motion by rounding alone is taken to be at rest there.  Nothing is returned where it cannot be.
 std::optional<KerrMotion> kerr_motion(const KerrHole& hole, double r, double theta, double energy,

@@ -50,7 +50,8 @@ void KerrPoints::add(double row, double column, double size) {
   bool turned = false, straight = false;
   double radius = 0, least_area = HUGE_VAL, view = 0, ratio = 0;
   for (int k = 0; k < 9; ++k) {
-    const double down = (k / 3 - 1) * size / 2, on = (k % 3 - 1) * size / 2;
+    const int i = k / 3 - 1, j = k % 3 - 1;
+    const double down = i * size / 2, on = j * size / 2;
     const KerrChart::Value at = chart_.value(row + down, column + on);
     const KerrChart::Direction n = chart_.direction(row + down, column + on);
     radius = std::max(radius, (at.sky - cell.middle).length());
@@ -105,10 +106,8 @@ void KerrPoints::set_box(Cell& cell) const {
   cell.by_column = centre.sky.cross(cell.by_row);
   double long_side = 0, short_side = 0;
   for (int k = 0; k < 25; ++k) {
-    const V3d at = chart_
-                       .value(cell.row + (k / 5 - 2) * cell.size / 4,
-                              cell.column + (k % 5 - 2) * cell.size / 4)
-                       .sky;
+    const int i = k / 5 - 2, j = k % 5 - 2;
+    const V3d at = chart_.value(cell.row + i * cell.size / 4, cell.column + j * cell.size / 4).sky;
     long_side = std::max(long_side, std::abs(at.dot(cell.by_row)));
     short_side = std::max(short_side, std::abs(at.dot(cell.by_column)));
   }
