@@ -47,8 +47,6 @@ struct RadiusMark {
   bool is_horizon;
 };
 // Returns them from the innermost on.
-// Returns the charge whose diagram has the same horizons, which for a spin is that of its axis.
-std::optional<ChargedHole> two_horizons(const Spacetime& spacetime);
 std::vector<RadiusMark> radius_marks(const Spacetime& spacetime);
 // Returns the unit of lengths: M, or radii of the throat.
 const char* unit_of(const Spacetime& spacetime);

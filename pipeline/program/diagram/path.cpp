@@ -13,6 +13,14 @@
 #include "trajectories/degree.h"
 
 namespace domefall {
+
+std::optional<ChargedHole> two_horizons(const Spacetime& spacetime) {
+  if (const auto* charged = std::get_if<ChargedHole>(&spacetime.kind())) return *charged;
+  if (const auto* spinning = std::get_if<SpinningHole>(&spacetime.kind()))
+    return ChargedHole(spinning->mass_solar, std::sqrt(spinning->kerr.squares()));
+  return std::nullopt;
+}
+
 namespace {
 
 // A segment has this many ticks.

@@ -1,12 +1,16 @@
 // This file samples the path of a show's observer finely enough for a smooth curve.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "pipeline/show/show.h"
 #include "pipeline/spacetime/penrose.h"
 
 namespace domefall {
+
+// Returns the charge whose diagram has the same horizons, which for a spin is that of its axis.
+std::optional<ChargedHole> two_horizons(const Spacetime& spacetime);
 
 struct PathPoint {
   double time_s = 0;  // since the beginning of the show

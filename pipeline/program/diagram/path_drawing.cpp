@@ -126,13 +126,6 @@ void draw_held_instants(Svg& page, const std::vector<Stretch>& stretches) {
 
 }  // namespace
 
-std::optional<ChargedHole> two_horizons(const Spacetime& spacetime) {
-  if (const auto* charged = std::get_if<ChargedHole>(&spacetime.kind())) return *charged;
-  if (const auto* spinning = std::get_if<SpinningHole>(&spacetime.kind()))
-    return ChargedHole(spinning->mass_solar, std::sqrt(spinning->kerr.squares()));
-  return std::nullopt;
-}
-
 std::vector<RadiusMark> radius_marks(const Spacetime& spacetime) {
   if (spacetime.is<Wormhole>()) return {{1, "throat", false}};
   const auto hole = two_horizons(spacetime);
