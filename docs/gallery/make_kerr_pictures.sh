@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Renders the pictures of kerr.md.  Needs oiiotool.
+# Usage, from anywhere: docs/gallery/make_kerr_pictures.sh [domefall] [folder for the frames]
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+domefall=${1:-build/release/domefall}
+out=${2:-out/gallery}/kerr
+mkdir -p "$out"
+
+# On a circle of r = 6 in the equator, towards the hole.
+spin() {
+  cat >"$out/spin_$1.yaml" <<SHOW
+size: [1000, 1000]
+camera: {projection: rectilinear, fov_deg: 110, look_at: hole}
+black_hole: {mass_solar: 1e8, spin: $1}
+exposure: {ev: 1}
+timeline:
+  - {duration_s: 1, trajectory: {type: circular, r: 6.03}}
+SHOW
+  "$domefall" render "$out/spin_$1.yaml" --frames 0 --out "$out/spin_$1"
+}
+pictures=()
+for a in 0 0.5 0.999; do
+  spin "$a"
+  pictures+=("$out/spin_$a/graded/spin_${a}_00000.png")
+done
+oiiotool "${pictures[@]}" --mosaic 3x1 --ch R,G,B --resize 1500x500 --compression jpeg:86 \
+  -o docs/gallery/kerr_spins.jpg
+
+# From rest above the ergosphere, through the horizon.
+cat >"$out/fall.yaml" <<'SHOW'
+size: 2k
+black_hole: {mass_solar: 4.3e6, spin: 0.9}
+sky: {region_III: {background: grid}}
+camera: {look_at: hole, elevation_deg: 45}
+timeline:
+  - {duration_s: 6, trajectory: {type: infall, rest_r: 6, latitude_deg: 30, to_r: 0.8}}
+SHOW
+"$domefall" render "$out/fall.yaml" --frames 60,140,165,176 --out "$out/fall"
+oiiotool "$out"/fall/graded/fall_00{060,140,165,176}.png --mosaic 2x2 --ch R,G,B --resize 1000x1000 \
+  --compression jpeg:84 -o docs/gallery/kerr_fall.jpg
