@@ -119,23 +119,27 @@ void StarImageFinder::append_listed(const SceneStar& star, std::vector<StarImage
   points_->list_images(source, radius_of(star), least, listed);
   double most = 0;
   for (const SkyImage& image : listed) most = std::max(most, image.amplification);
-  // Next to a caustic an image moves so much faster than its source as it is brighter, so that the mean
-  // over a frame's time is drawn.
+  // Next to a caustic an image moves so much faster than its source as it is brighter, and the mean over
+  // the times about a frame's is drawn, with the weights of a triangle: those of all frames add up to an
+  // even exposure.
+  constexpr double kMostParts = 256;
   const V3d way = scene_.motion.turn.cross(source);
-  const int parts = static_cast<int>(
-      std::clamp(std::ceil(2 * way.length() * most / scene_.point_spread.least()), 1.0, 256.0));
-  if (parts == 1) {
+  const int parts = static_cast<int>(std::clamp(
+      std::ceil(4 * way.length() * most / scene_.point_spread.least()), 1.0, kMostParts));
+  if (parts < 8) {
     for (const SkyImage& image : listed)
       append_image(star, out_of_lens(*scene_.tracer.lens(), image), images);
     return;
   }
   listed.clear();
-  for (int k = 0; k < parts; ++k)
-    points_->list_images((source + way * ((k + 0.5) / parts - 0.5)).normalized(), radius_of(star),
-                         least, listed);
-  for (SkyImage& image : listed) {
-    image = out_of_lens(*scene_.tracer.lens(), image);
-    image.amplification /= parts;
+  for (int k = 0; k < parts; ++k) {
+    const double time = (2 * k + 1.0) / parts - 1;
+    const std::size_t first = listed.size();
+    points_->list_images((source + way * time).normalized(), radius_of(star), least, listed);
+    for (std::size_t n = first; n < listed.size(); ++n) {
+      listed[n] = out_of_lens(*scene_.tracer.lens(), listed[n]);
+      listed[n].amplification *= 2 * (1 - std::abs(time)) / parts;
+    }
   }
   append_trail(star, listed, images);
 }
