@@ -150,7 +150,7 @@ std::optional<TimedTrajectory> read_spin_throw(const Item& item, const Stage& st
   GivenVelocity frame;
   frame.r = *from_r;
   frame.celerity =
-      kerr_circling(hole, *from_r, theta, dragged_velocity(hole, *from_r, theta))->celerity;
+      kerr_circling(hole, *from_r, theta, dragged_velocity(hole, *from_r, theta)).value().celerity;
   const auto own = read_own_celerity(s, stage, frame, lookup);
   if (!own) return std::nullopt;
   const KerrMotion motion = kerr_motion(
