@@ -169,7 +169,7 @@ KerrChart::Place KerrChart::place(double delta, double eta, const Edge& edge) co
   Place place{at.sky, at.by_row / (step_ * way), {}};
   const double sine = std::sin(delta);
   // Next to the end, where all eta meet, the derivative across is that by delta a quarter turn on.
-  if (std::abs(sine) < 5e-4) {
+  if (std::abs(delta - end_) < 5e-4) {
     const double quarter = eta + (end_ > 0 ? -pi / 2 : pi / 2), other = this->edge(quarter).delta;
     const double there =
         std::min((std::log((delta - other) / (end_ - other)) - kLeast) / step_, rows_ - 1e-9);

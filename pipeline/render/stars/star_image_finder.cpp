@@ -122,11 +122,11 @@ void StarImageFinder::append_listed(const SceneStar& star, std::vector<StarImage
   // Next to a caustic an image moves so much faster than its source as it is brighter, and the mean over
   // the times about a frame's is drawn, with the weights of a triangle: those of all frames add up to an
   // even exposure.
-  constexpr double kMostParts = 256;
+  constexpr double kMostParts = 256, kBright = 30;
   const V3d way = scene_.motion.turn.cross(source);
   const int parts = static_cast<int>(std::clamp(
       std::ceil(4 * way.length() * most / scene_.point_spread.least()), 1.0, kMostParts));
-  if (parts < 8) {
+  if (parts < 8 || most < kBright) {
     for (const SkyImage& image : listed)
       append_image(star, out_of_lens(*scene_.tracer.lens(), image), images);
     return;
