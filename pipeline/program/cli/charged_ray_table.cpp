@@ -13,6 +13,7 @@
 #include "pipeline/light/ray_request.h"
 #include "pipeline/light/traced_charge.h"
 #include "pipeline/program/cli/kerr_ray_table.h"
+#include "pipeline/spacetime/kerr.h"
 #include "trajectories/directions.h"
 
 namespace domefall {
@@ -118,6 +119,14 @@ void print_answer(const AskedRay& asked) {
   fmt::print(",{},{:.17g}\n", plane.turns(ray.phi), mino);
 }
 
+// Says whether an observer is at the inner horizon of a hole that spins, or inside.
+bool is_inside(const CsvFile& rows) {
+  const auto number = [&](const char* column) {
+    return decimal_number(std::string(rows.text(column)), column);
+  };
+  return number("r") <= KerrHole{number("spin"), number("charge")}.inner_horizon();
+}
+
 }  // namespace
 
 bool is_charged_ray_table(const CsvFile& rows) { return rows.has("spin") && rows.has("charge"); }
@@ -134,21 +143,26 @@ void trace_charged_rays(const std::string& file) {
     try {
       if (passages) k = passage_number(std::string(rows.text("k")));
       const bool spins = decimal_number(std::string(rows.text("spin")), "spin") != 0;
-      if (spins || passages)
+      // Inside the inner horizon cells stay empty.
+      const bool known = !spins || !is_inside(rows);
+      if (known && (spins || passages))
         spinning = asked_kerr_ray(rows);
-      else
+      else if (known)
         charged = ray_of(rows);
     } catch (const InputError& error) {
       rows.fail(error.what());
     }
     for (const char* column : kInput)
       fmt::print("{}{}", column == kInput.front() ? "" : ",", rows.text(column));
-    if (passages)
-      fmt::print(",{}", k), print_kerr_passage(*spinning, k);
+    if (passages) fmt::print(",{}", k);
+    if (spinning && passages)
+      print_kerr_passage(*spinning, k);
     else if (spinning)
       print_kerr_ray(*spinning);
-    else
+    else if (charged)
       print_answer(*charged);
+    else
+      fmt::print("{}\n", std::string(passages ? 8 : 11, ','));
   }
 }
 
