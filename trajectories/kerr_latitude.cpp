@@ -82,9 +82,7 @@ void KerrLatitude::follow(const Node& start) {
 KerrLatitude::Node KerrLatitude::at(double l) const {
   const double periods = period_ < HUGE_VAL ? std::floor(l / period_) : 0;
   const double rest = periods != 0 ? l - periods * period_ : l;
-  const auto later = std::upper_bound(nodes_.begin() + 1, nodes_.end(), rest,
-                                      [](double x, const Node& node) { return x < node.l; });
-  const Node& node = *(later - 1);
+  const Node& node = node_before(nodes_, rest);
   Node there = after(node, series(node), rest - node.l);
   there.l = l;
   if (periods != 0) {

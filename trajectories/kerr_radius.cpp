@@ -167,9 +167,7 @@ KerrRadius::Node KerrRadius::at(double l) const {
   }
   const double periods = has_period() ? std::floor(l / period_) : 0;
   const double rest = periods != 0 ? l - periods * period_ : l;
-  const auto later = std::upper_bound(nodes_.begin() + 1, nodes_.end(), rest,
-                                      [](double x, const Node& node) { return x < node.l; });
-  const Node& node = *(later - 1);
+  const Node& node = node_before(nodes_, rest);
   Node there = after(node, series(node), rest - node.l);
   there.l = l;
   if (periods != 0) {

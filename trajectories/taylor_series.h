@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 namespace domefall {
 
@@ -55,6 +56,14 @@ inline double zero_between(const std::function<double(double)>& f, double a, dou
     ((f(middle) > 0) == positive ? a : b) = middle;
   }
   return (a + b) / 2;
+}
+
+// Returns the last node at or before l, or the first one.
+template <class Node>
+const Node& node_before(const std::vector<Node>& nodes, double l) {
+  const auto later = std::upper_bound(nodes.begin() + 1, nodes.end(), l,
+                                      [](double x, const Node& node) { return x < node.l; });
+  return *(later - 1);
 }
 
 }  // namespace domefall

@@ -36,13 +36,13 @@ SCENE = """<?xml version="1.0" encoding="UTF-8" standalone="no"?>
 """
 
 
-def first_image(fits):
+def first_images(fits, images):
     """The numbers of the first array of a FITS file, whose header says that they are doubles."""
     at, header = 0, ""
     while "END     " not in header:
         header += fits[at:at + 2880].decode("ascii")
         at += 2880
-    count = 2 * PIXELS ** 2
+    count = images * PIXELS ** 2
     return struct.unpack(f">{count}d", fits[at:at + 8 * count])
 
 
@@ -53,7 +53,7 @@ def view(inclination):
                                       inclination=inclination))
         subprocess.run(["gyoto", "-r", str(PIXELS), scene, image], check=True,
                        stdout=subprocess.DEVNULL)
-        numbers = first_image(image.read_bytes())
+        numbers = first_images(image.read_bytes(), 2)
     ratios, fluxes = numbers[:PIXELS ** 2], numbers[PIXELS ** 2:]
     brightest = max(fluxes)
     for k, (ratio, flux) in enumerate(zip(ratios, fluxes)):

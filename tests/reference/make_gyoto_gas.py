@@ -13,11 +13,11 @@ slab  a disc from 6 to 20 of the height H/r = 0.1 (r/20)^(1/8) and of the optica
       and is so hot that light goes with it.
 """
 import pathlib
-import struct
 import subprocess
 import tempfile
 
-DISTANCE, FIELD, PIXELS = 10000, 0.005, 20
+from make_gyoto_discs import DISTANCE, FIELD, PIXELS, first_images
+
 HALO = """
 import math
 class Gas:
@@ -98,16 +98,6 @@ SCENE = """<?xml version="1.0" encoding="UTF-8" standalone="no"?>
 """
 
 
-def first_image(fits):
-    """The numbers of the first array of a FITS file, whose header says that they are doubles."""
-    at, header = 0, ""
-    while "END     " not in header:
-        header += fits[at:at + 2880].decode("ascii")
-        at += 2880
-    count = PIXELS ** 2
-    return struct.unpack(f">{count}d", fits[at:at + 8 * count])
-
-
 def view(kind, module, inclination):
     module = module.replace("<", "&lt;")
     with tempfile.TemporaryDirectory() as folder:
@@ -116,7 +106,7 @@ def view(kind, module, inclination):
                                       inclination=inclination, module=module))
         subprocess.run(["gyoto", "-pstdplug,python3", "-r", str(PIXELS), scene, image], check=True,
                        stdout=subprocess.DEVNULL)
-        light = first_image(image.read_bytes())
+        light = first_images(image.read_bytes(), 1)
     brightest = max(light)
     for k, pixel in enumerate(light):
         # Gyoto's pictures have east at the left.
