@@ -30,7 +30,12 @@ std::optional<TimedTrajectory> falling(const Section& s, const Stage& stage, con
                                        const Defaults& defaults) {
   const auto orbit =
       made(s, item, [&] { return KerrOrbit(hole_of(stage).kerr, r, theta, motion); });
-  const auto timing = orbit ? read_timing(s, stage, *orbit, defaults) : std::nullopt;
+  if (!orbit) return std::nullopt;
+  // What begins at the orbit's own beginning does so at 0 exactly.
+  const auto from_r = s.given("from_r");
+  const bool there = from_r && *from_r == r && !s.find("from_leg") && !s.find("from_tau_m");
+  const auto timing =
+      there ? read_end(s, stage, *orbit, 0, defaults) : read_timing(s, stage, *orbit, defaults);
   if (!timing) return std::nullopt;
   return TimedTrajectory{*orbit, *timing, {}};
 }
@@ -125,6 +130,9 @@ std::optional<TimedTrajectory> read_spin_bound(const Item& item, const Stage& st
   const auto most = s.required("apoastron", outside(stage));
   const double inclination = s.angle("inclination_deg");
   if (!least || !most) return std::nullopt;
+  if (std::abs(std::cos(inclination)) < 1e-6)
+    return s.find("inclination_deg")
+        ->fail("must not be 90: an orbit over both ends of the axis is not computed");
   if (*most < *least)
     return s.find("apoastron")
         ->fail(fmt::format("must be at least the periastron, {}, got {}", short_number(*least),

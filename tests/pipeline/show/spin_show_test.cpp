@@ -68,6 +68,7 @@ TEST_F(SpinShow, GoesOnFromSegmentToSegment) {
   EXPECT_LT((column(end.sky_from_tetrad, 0) + axis(s)).length(), 1e-12);
   EXPECT_EQ(end.region, Region::kII);
   EXPECT_NEAR(end.r, 1.01 * s.spacetime.inner_horizon(), 1e-12);
+  EXPECT_EQ(observer_at(s, 2, 0).proper_time, 0);
   // The motion is downwards.
   EXPECT_LT(motion_direction(at(s, 11)).x, 0);
 }
@@ -93,6 +94,8 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   has(complaint_of("{type: circular, r: 3.9, retrograde: true}"), "must exceed 3.9102");
   has(complaint_of("{type: bound, periastron: 1.7, apoastron: 9}"), "periastron must be greater");
   has(complaint_of("{type: bound, periastron: 7, apoastron: 6}"), "at least the periastron, 7");
+  has(complaint_of("{type: bound, periastron: 7, apoastron: 9, inclination_deg: 90}"),
+      "inclination_deg must not be 90");
   has(complaint_of("{type: infall, from_r: 9, angular_momentum: 90}"), "is too much for a fall");
   has(complaint_of("{type: path, keyframes: []}"), "the types are static, circular, bound");
 }
