@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 
@@ -87,24 +88,26 @@ struct ObservedBlock {
 }
 Dispatched<observe_loop> observe;
 
-double circular_shift(const GasOrbits& orbits, const DiscRay& ray, double r) {
+double circular_shift(const GasOrbits& orbits, const GasRay& ray, double r) {
   const double omega = orbits.circling(r);
   return (ray.energy - omega * ray.about_axis) / std::sqrt(orbits.slowing_squared(r));
 }
 
-// Returns (E' E - u^r k^r)/f - L' L_n/r^2.  Where light and gas both move inwards, the two terms of
-// the first numerator cancel next to the horizon, and the difference of their squares is divided by
-// their sum instead.
-double plunging_shift(const GasOrbits& orbits, const DiscRay& ray, double r, bool outward) {
-  const double above = orbits.lapse_squared(r), speed = orbits.plunge_speed(r);
-  const double energy = orbits.plunge_energy();
-  const double l = ray.angular_momentum / r, own = orbits.plunge_momentum() / r;
-  const double radial = std::sqrt(std::max(0.0, ray.energy * ray.energy - above * l * l));
-  const double turned = own * ray.about_axis / r;
-  if (outward) return (energy * ray.energy + speed * radial) / above - turned;
-  const double squares = ray.energy * ray.energy * (1 + own * own) + energy * energy * l * l -
-                         above * (1 + own * own) * l * l;
-  return squares / (energy * ray.energy + speed * radial) - turned;
+// Where light and gas both move inwards, the two terms of the numerator cancel next to the horizon, and
+// the difference of their squares is divided by their sum instead.
+double plunging_shift(const GasOrbits& orbits, const GasRay& ray, double r, bool outward) {
+  const double a = orbits.spin(), square = r * r + a * a, above = orbits.delta(r);
+  const double own_energy = orbits.plunge_energy(), own_momentum = orbits.plunge_momentum();
+  const double p = square * ray.energy - a * ray.about_axis,
+               own_p = square * own_energy - a * own_momentum;
+  const double y = ray.about_axis - a * ray.energy, own_y = own_momentum - a * own_energy;
+  const double k = ray.momentum * ray.momentum, own_k = r * r + own_y * own_y;
+  const double speed = std::sqrt(std::max(0.0, p * p - above * k)),
+               own_speed = r * r * orbits.plunge_speed(r);
+  const double sum = p * own_p + speed * own_speed;
+  const double radial =
+      outward ? sum / above : (p * p * own_k + own_p * own_p * k - above * k * own_k) / sum;
+  return (radial - y * own_y) / (r * r);
 }
 
 }  // namespace
@@ -130,6 +133,7 @@ PageThorneProfile::PageThorneProfile(bool plunging, const GasOrbits& orbits)
 // From the edge, y = y_s, on B is the difference of y and of three inverse functions.  Of first
 // order in d = y - y_s all terms together cancel, so they are combined by hand.
 double PageThorneProfile::brought(double r) const {
+  if (orbits_.spin() != 0) return brought_by_quadrature(r);
   const double q2 = orbits_.charge_squared(), q = std::sqrt(q2);
   const double start = orbits_.last_stable() - q2, first = std::sqrt(start);  // y_s^2, y_s
   const double y = std::sqrt(r - q2), d = (r - orbits_.last_stable()) / (y + first);
@@ -144,9 +148,33 @@ double PageThorneProfile::brought(double r) const {
          root_a * beyond_linear(root_a * d / below, 1);
 }
 
-// Up to a constant, with B ~ Page and Thorne's.
+double PageThorneProfile::brought_by_quadrature(double r) const {
+  const double a = orbits_.spin(), q2 = orbits_.charge_squared(), edge = orbits_.last_stable();
+  const auto rate = [&](double at) {  // by y
+    const double w2 = at - q2, w = std::sqrt(w2);
+    const double under = at * (at - 3) + 2 * q2 + 2 * a * w, n = at * std::sqrt(under);
+    const double energy = (at * (at - 2) + q2 + a * w) / n,
+                 momentum = (w * (at * at + a * a) - a * (2 * at - q2)) / n;
+    const double stable =
+        at * ((6 - at) * at - 9 * q2 + 3 * a * a) + 4 * q2 * (q2 - a * a) - 8 * a * w2 * w;
+    const double y = momentum - a * energy, p = at * at * energy - a * y;
+    const double by_energy = 4 * at * (energy * (at * at + a * a) + p) + 4 * a * (at - 1) * y,
+                 by_momentum = -4 * (a * at * energy + (at - 1) * y);
+    const double omega = orbits_.circling(at);
+    const double by_r = -2 * stable / under / (omega * by_energy + by_momentum);
+    return (energy - omega * momentum) * by_r * 2 * w;
+  };
+  const double first = std::sqrt(edge - q2), last = std::sqrt(r - q2);
+  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+      [&](double y) { return rate(y * y + q2); }, first, last, 8, 1e-13);
+}
+
+// Up to a constant.
 double PageThorneProfile::stable_flux(double r) const {
   const double q2 = orbits_.charge_squared();
+  if (orbits_.spin() != 0)
+    return (brought(r) + pull_) * orbits_.shear(r) * orbits_.circling(r) /
+           (r * r * orbits_.slowing_squared(r));
   const double over = (r - 3 + 2 * q2 / r) * r * r * std::sqrt(r - q2);
   return (brought(r) + pull_) / over * (1 - 4 * q2 / (3 * r));
 }
@@ -233,13 +261,12 @@ double absorbed_part(const Disc& disc, double r, double steepness) {
   return 1 - exponential(-depth / std::max(steepness, kGrazing));
 }
 
-DiscRay disc_ray(const RayInvariants& ray, const V3d& place, const V3d& tangent,
-                 const V3d& normal) {
+GasRay disc_ray(const RayInvariants& ray, const V3d& place, const V3d& tangent, const V3d& normal) {
   return {ray.energy, ray.angular_momentum,
           -ray.angular_momentum * place.cross(tangent).dot(normal)};
 }
 
-double disc_shift(const GasOrbits& orbits, const DiscRay& ray, double r, bool outward) {
+double disc_shift(const GasOrbits& orbits, const GasRay& ray, double r, bool outward) {
   return r < orbits.last_stable() ? plunging_shift(orbits, ray, r, outward)
                                   : circular_shift(orbits, ray, r);
 }

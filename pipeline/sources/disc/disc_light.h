@@ -14,12 +14,12 @@
 namespace domefall {
 
 // A PageThorneProfile says how hot a thin disc is at each radius, after Page & Thorne, ApJ 191, 499
-// (1974), for a hole without spin (M = 1).  With E, L and Omega of circular orbits, outside the last
-// one that is stable, r_s,
+// (1974) (M = 1).  With E, L and Omega of circular orbits, outside the last one that is stable, r_s,
 //
 //     F(r) ~ -Omega' (B(r) + C)/(r (E - Omega L)^2),   B = int (E - Omega L) dL.
 //
-// About a charge q, with y = sqrt(r - q^2), A = r_c - q^2 and D = q^2 (1 - 2/r_c), r_c the circle of
+// About a spin this is a quadrature, with dL/dr = -R''/(Omega dR'/dE + dR'/dL) of the radial potential
+// R of kerr.h's orbits.  Without one, about a charge q, with y = sqrt(r - q^2), A = r_c - q^2 and D = q^2 (1 - 2/r_c), r_c the circle of
 // light, the integral is elementary:
 //
 //     dB/dy = 1 - 2 q^2/(y^2 + q^2) + D/(y^2 + D) - A/(y^2 - A).
@@ -36,7 +36,7 @@ namespace domefall {
 //
 //     F(r) ~ F(r_s) (r_s/r)^(17/7) [1 + u/e]^(-1/7)          r_+ <= r < r_s
 //
-// with u the speed of the fall by GasOrbits::fall, (6/r - 1)^(3/2) without a charge, and e = 0.01
+// with u the speed of the fall by GasOrbits::fall, (6/r - 1)^(3/2) without charge and spin, and e = 0.01
 // that with which it sets out.
 class PageThorneProfile {
  public:
@@ -57,6 +57,7 @@ class PageThorneProfile {
  private:
   double brought(double r) const;  // B
   double stable_flux(double r) const;
+  double brought_by_quadrature(double r) const;
 
   GasOrbits orbits_;
   bool plunging_;
@@ -106,9 +107,9 @@ double depth_across(const Disc& disc, double r);
 // depth along it is the disc's over that cosine.
 double absorbed_part(const Disc& disc, double r, double steepness);
 
-// The shift of a disc's light on its way to an observer follows from a DiscRay, which holds what
+// The shift of a disc's light on its way to an observer follows from a GasRay, which holds what
 // decides it of a view ray.  Gas on a circular orbit has u^t and turns with Omega (gas_orbits.h)
-// about the disc's axis n.  It sends light of the ray with E, L at (M = 1)
+// about the disc's axis n.  It sends light of the ray with E, L_n at (M = 1)
 //
 //     1 + z = u^t (E - Omega L_n) / (k.u),      L_n = -L (r^ x e^).n
 //
@@ -116,23 +117,20 @@ double absorbed_part(const Disc& disc, double r, double steepness);
 // tangent in which the ray sweeps its angle, followed back in time.  In the reference tetrad k.u =
 // 1.  For whoever moves against it the result is multiplied by the frequency there over the one
 // observed, AberratedLight::frequency_ratio of to_tetrad().  Gas that plunges with E', L' and u^r
-// sends
+// sends, with P = (r^2 + a^2) E - a L_n, Y = L_n - a E and s^2 = P^2 - Delta K, likewise P', Y', s',
 //
-//     1 + z = [(E' E - u^r k^r)/f - L' L_n/r^2] / (k.u).
-struct DiscRay {
-  double energy;            // E, > 0 wherever it meets a disc
-  double angular_momentum;  // L >= 0
-  double about_axis;        // L_n
-};
-
+//     1 + z = [(P P' +- s s')/Delta - Y Y']/r^2 / (k.u),
+//
+// where light moves outwards (+) or inwards.
+//
 // The place, the tangent and the normal are r^, e^ and n, unit vectors of one frame.  It may be the
 // tetrad's (R, Theta, Phi) or the celestial sphere's.
-DiscRay disc_ray(const RayInvariants& ray, const V3d& place, const V3d& tangent, const V3d& normal);
+GasRay disc_ray(const RayInvariants& ray, const V3d& place, const V3d& tangent, const V3d& normal);
 
 // Returns the frequency that gas at r sends over the one that the reference tetrad sees at the
 // observer's place, for r above the horizon (units of M) in region I.  The gas plunges below the
 // last stable orbit.  `outward` says whether the light sets out to larger radii, which matters to
 // plunging gas alone.  The result is infinite where light sets out outward from the horizon.
-double disc_shift(const GasOrbits& orbits, const DiscRay& ray, double r, bool outward);
+double disc_shift(const GasOrbits& orbits, const GasRay& ray, double r, bool outward);
 
 }  // namespace domefall

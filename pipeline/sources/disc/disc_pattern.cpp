@@ -278,10 +278,10 @@ Turbulence::Turbulence(const TurbulencePattern& pattern, const GasOrbits& orbits
     : pattern_(pattern), orbits_(orbits) {
   for (int row = 0; row * kRowWidth < kOutermostLog + 2 * kRowWidth; ++row) {
     const double middle = row * kRowWidth;
-    // Rows inside the last stable orbit go by its charge.
+    // Rows inside the last stable orbit go by what charge and spin do there.
     const double r = std::max(exponential(middle), orbits.last_stable());
     const double orbit =
-        kTurn * exponential(1.5 * middle) / std::sqrt(1 - orbits.charge_squared() / r);
+        kTurn * exponential(1.5 * middle) / (orbits.circling(r) * r * std::sqrt(r));
     spans_.push_back(pattern.orbits * orbit / kGenerations);
     rates_.push_back(1 / spans_.back());
   }

@@ -24,7 +24,8 @@ double from_axis(double latitude_sine) {
 
 double density(const Halo& halo, const GasOrbits& hole, const GasPlace& at) {
   if (at.r <= hole.horizon()) return 0;
-  return hole.lapse_squared(at.r) * gaussians(at.r / halo.r, at.latitude_sine / halo.height);
+  return hole.delta(at.r) / (at.r * at.r + hole.spin() * hole.spin()) *
+         gaussians(at.r / halo.r, at.latitude_sine / halo.height);
 }
 
 double density(const Jet& jet, const GasOrbits& hole, const GasPlace& at) {
@@ -35,25 +36,52 @@ double density(const Jet& jet, const GasOrbits& hole, const GasPlace& at) {
          gaussians(from_axis(at.latitude_sine) / jet.opening, at.r / jet.length);
 }
 
-// With u_t = 1/sqrt(1/f - l^2/rho^2) its four-velocity is u_t (1, l) in (t, phi), so that k.u = u_t
-// (E/f - l L_n/rho^2).
+namespace {
+
+// The metric at a place, in the coordinates of Boyer and Lindquist: g^tt = A/(Delta Sigma) and
+// g^tphi = D/(Delta Sigma).
+struct HolePlace {
+  double spin, square, sigma, delta, sine2, a, d;
+
+  HolePlace(const GasOrbits& hole, const GasPlace& at)
+      : spin(hole.spin()), square(at.r * at.r + spin * spin), delta(hole.delta(at.r)) {
+    const double s = at.latitude_sine;
+    sine2 = std::max(1e-12, (1 - s) * (1 + s));
+    sigma = at.r * at.r + spin * spin * s * s;
+    a = square * square - delta * spin * spin * sine2;
+    d = spin * (2 * at.r - hole.charge_squared());
+  }
+};
+
+}  // namespace
+
+// With u_t = [g^tt - 2 l g^tphi + l^2 g^phiphi]^(-1/2) its four-velocity has the parts u_t (1, -l), so
+// that k.u = u_t [g^tt E - g^tphi (l E + L_n) + g^phiphi l L_n].
 double sent_frequency(const Halo&, const GasOrbits& hole, const GasRay& ray, const GasPlace& at) {
-  const double s = at.latitude_sine, f = hole.lapse_squared(at.r);
-  const double rho = at.r * std::sqrt(std::max(1e-12, (1 - s) * (1 + s)));
-  const double turning = std::sqrt(rho) / (1 + rho);  // l/rho
-  return (ray.energy / f - turning * ray.about_axis / rho) / std::sqrt(1 / f - turning * turning);
+  const HolePlace p(hole, at);
+  const double rho = at.r * std::sqrt(p.sine2), l = rho * std::sqrt(rho) / (1 + rho);
+  const double round = (p.delta - p.spin * p.spin * p.sine2) / p.sine2;  // of -g^phiphi
+  const double over = p.delta * p.sigma;
+  return (p.a * ray.energy - p.d * (l * ray.energy + ray.about_axis) - round * l * ray.about_axis) /
+         std::sqrt(over * (p.a - 2 * p.d * l - round * l * l));
 }
 
-// Against whoever rests, light has the energy E/sqrt(f), and the part k^r/E of it goes outwards.
+// Against whoever has no angular momentum, light has the energy (E - omega L)/alpha, and a part of it
+// goes outwards.
 double sent_frequency(const Jet& jet, const GasOrbits& hole, const GasRay& ray,
                       const GasPlace& at) {
-  const double f = hole.lapse_squared(at.r), l = ray.momentum / (at.r * ray.energy);
-  const double radial = std::sqrt(std::max(0.0, 1 - f * l * l)), g = jet.lorentz;
+  const HolePlace p(hole, at);
+  const double l = ray.about_axis, y = l - p.spin * ray.energy * p.sine2;
+  const double energy = (ray.energy - p.d / p.a * l) * std::sqrt(p.a / (p.delta * p.sigma));
+  const double around = std::max(0.0, (ray.momentum * ray.momentum - y * y / p.sine2) / p.sigma +
+                                          l * l * p.sigma / (p.a * p.sine2)) /
+                        (energy * energy);
+  const double radial = std::sqrt(std::max(0.0, 1 - around)), g = jet.lorentz;
   // gamma - sqrt(gamma^2 - 1) x is 1/(gamma + ...) for x = 1, without a difference of like numbers.
   const double own = std::sqrt((g - 1) * (g + 1));
   const double against =
-      at.outward ? 1 / (g + own) + own * (f * l * l / (1 + radial)) : g + own * radial;
-  return ray.energy / std::sqrt(f) * against;
+      at.outward ? 1 / (g + own) + own * (around / (1 + radial)) : g + own * radial;
+  return energy * against;
 }
 
 double reach(const Halo& halo) { return kSigmas * halo.r; }

@@ -19,7 +19,7 @@ using GasTemperature = std::optional<double>;
 
 // A Halo is a torus of gas about its axis.  With the sine s of the latitude its density is
 //
-//     n(r, s) = f exp(-(r/R)^2/2 - (s/H)^2/2),      f = 1 - 2/r + q^2/r^2,
+//     n(r, s) = f exp(-(r/R)^2/2 - (s/H)^2/2),      f = Delta/(r^2 + a^2),
 //
 // and it circles with the angular momentum l = rho^(3/2)/(1 + rho) for each unit of energy, rho =
 // r cos(latitude), which is close to a free orbit far away and falls behind it near the hole: the
@@ -38,7 +38,7 @@ struct Halo {
 };
 
 // A Jet is a pair of cones of gas that flows away from the hole along its axis and against it, with
-// one Lorentz factor against whoever rests there.  With the angle a from the axis its density is
+// one Lorentz factor against whoever is there without angular momentum.  With the angle a from the axis its density is
 //
 //     n(r, a) = (R/r)^2 exp(-(a/A)^2/2) x^2 (3 - 2x) exp(-(r/D)^2/2),   x = (r - r_+)/R, at most 1,
 //
@@ -61,10 +61,6 @@ struct Jet {
 struct GasPlace {
   double r, latitude_sine;
   bool outward;  // whether light sets out to larger radii
-};
-struct GasRay {
-  double energy, momentum;  // E, L >= 0
-  double about_axis;        // L_n, as of DiscRay
 };
 
 // Returns how dense gas is at a place, 1 at most.

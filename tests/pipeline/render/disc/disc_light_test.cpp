@@ -107,7 +107,7 @@ class ExactDiscLight {
     const V3d direction = V3d(-std::cos(delta), 0, 0) + tangent * std::sin(delta);
     const double received = to_observer(view_.at.celerity, direction).frequency_ratio;
     const NullRay ray = ray_from_hole(delta);
-    const DiscRay disc = disc_ray(invariants(ray), V3d(1, 0, 0), tangent, normal_);
+    const GasRay disc = disc_ray(invariants(ray), V3d(1, 0, 0), tangent, normal_);
     double sum = 0, left = 1;
     for (std::size_t k = 0; k < kOrders; ++k) {
       if (delta < images.inner[k] || delta > images.outer[k]) continue;

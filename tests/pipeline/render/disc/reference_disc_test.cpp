@@ -51,7 +51,7 @@ std::vector<ClosedPlace> closed_places(const ReferenceDiscView& view, const V3d&
   const NullRay ray =
       ray_at(view.r, view.outgoing ? kPi - from_hole : from_hole, {view.outgoing, false});
   const V3d place(1, 0, 0), tangent = V3d(0, n.y, n.z) / tangential;
-  const DiscRay disc = disc_ray(invariants(ray), place, tangent, normal);
+  const GasRay disc = disc_ray(invariants(ray), place, tangent, normal);
   std::vector<ClosedPlace> found;
   if (!(disc.energy > 0) || (view.outgoing && view.r <= 2)) return found;
   double psi = std::atan2(-normal.dot(place), normal.dot(tangent));

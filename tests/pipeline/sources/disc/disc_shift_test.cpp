@@ -64,9 +64,9 @@ double product(const Four& a, const Four& b, double r) {
 // The shift of a ray that leaves gas at r, at an angle `psi` along its way from the observer, by
 // the inner product of the two four-vectors.  They are written in (t, r) and in Cartesian
 // components of the sphere's tangents along the ray and across it.
-double shift_of_vectors(const DiscRay& ray, double r, double psi, const V3d& tangent,
+double shift_of_vectors(const GasRay& ray, double r, double psi, const V3d& tangent,
                         const V3d& normal, const Four& gas, bool outward) {
-  const double f = 1 - 2 / r, l = ray.angular_momentum / r;
+  const double f = 1 - 2 / r, l = ray.momentum / r;
   const double radial = std::sqrt(ray.energy * ray.energy - f * l * l) * (outward ? 1 : -1);
   const V3d here = kPlace * std::cos(psi) + tangent * std::sin(psi);
   const V3d along = tangent * std::cos(psi) - kPlace * std::sin(psi);
@@ -87,10 +87,10 @@ TEST(DiscShift, IsTheProductOfRayAndMotion) {
     const NullRay view = ray_at(at, uniform(0, kHalfTurn));
     const V3d tangent = tangent_at(uniform(0, 2 * kHalfTurn)),
               normal = normal_at(uniform(0, kHalfTurn));
-    const DiscRay ray = disc_ray(invariants(view), kPlace, tangent, normal);
+    const GasRay ray = disc_ray(invariants(view), kPlace, tangent, normal);
     const double f = 1 - 2 / r;
     // Only light with E > 0 that can be at r at all comes from there.
-    if (!(ray.energy * ray.energy > f * std::pow(ray.angular_momentum / r, 2)) || ray.energy < 0)
+    if (!(ray.energy * ray.energy > f * std::pow(ray.momentum / r, 2)) || ray.energy < 0)
       continue;
     const double psi = first_crossing(kPlace, tangent, normal) + (k % 3) * kHalfTurn;
     const bool outward = k % 2 == 0;
@@ -113,7 +113,7 @@ TEST(DiscShift, IsTheProductOfRayAndMotion) {
 // Gas that falls in is seen to redden for ever from outside; who falls with it sees it calmly.
 TEST(DiscShift, OfPlungingGasIsRegularAtTheHorizonForLightThatFallsToo) {
   const V3d normal = normal_at(1.2), tangent = tangent_at(0.7);
-  const DiscRay ray = disc_ray(invariants(ray_at(1.8, 2.5)), kPlace, tangent, normal);
+  const GasRay ray = disc_ray(invariants(ray_at(1.8, 2.5)), kPlace, tangent, normal);
   ASSERT_GT(ray.energy, 0);
   const double at_horizon = disc_shift(GasOrbits(), ray, 2, false);
   EXPECT_GT(at_horizon, 0);
@@ -124,7 +124,7 @@ TEST(DiscShift, OfPlungingGasIsRegularAtTheHorizonForLightThatFallsToo) {
 
 TEST(DiscShift, OfGasThatBeginsToPlungeIsThatOfTheLastStableOrbit) {
   const V3d normal = normal_at(0.4), tangent = tangent_at(2);
-  const DiscRay ray = disc_ray(invariants(ray_at(15, 0.5)), kPlace, tangent, normal);
+  const GasRay ray = disc_ray(invariants(ray_at(15, 0.5)), kPlace, tangent, normal);
   for (const bool outward : {false, true})
     EXPECT_NEAR(disc_shift(GasOrbits(), ray, std::nextafter(6, 0), outward),
                 disc_shift(GasOrbits(), ray, 6, outward), 1e-12);
