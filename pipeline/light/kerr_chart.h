@@ -1,16 +1,11 @@
 // A KerrChart is the table of one sky as it is seen near a hole that spins, by an observer who moves as
-// the reference tetrad T: the unit vector to each place, by the angle eta about the hole and
-//
-//     s = ln((delta - edge)/(end - edge))        end = pi, or 0 for the sky of region III
-//
-// where `edge` is that of the sky at the same eta.  In these coordinates the sky is smooth up to its edge,
-// towards which it is seen again and again.  Between the nodes, which are exact rays (kerr_ray.h), there
-// are Lagrange's polynomials of eight.  Rays nearer to the edge than e^kLeast of the way are not in it.
+// the reference tetrad T: the unit vector to each place, at the nodes of a KerrGrid, which are exact rays
+// (kerr_ray.h).  Between the nodes there are Lagrange's polynomials of eight.
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "pipeline/light/kerr_grid.h"
 #include "pipeline/light/kerr_ray.h"
 
 namespace domefall {
@@ -20,16 +15,14 @@ double kerr_frequency_ratio(const KerrPlace& at, double delta, double eta);
 
 class KerrChart {
  public:
-  static constexpr double kLeast = -13.8;
+  static constexpr double kLeast = KerrGrid::kLeast;
 
   // The sky is that of region I or III.  For III the observer must be between the horizons.
   KerrChart(const KerrPlace& at, KerrEdge sky);
 
   // Returns delta of the edge at eta, and its derivative.
-  struct Edge {
-    double delta, slope;
-  };
-  Edge edge(double eta) const;
+  using Edge = KerrGrid::Edge;
+  Edge edge(double eta) const { return grid_.edge(eta); }
 
   // A Place has the unit vector to a place of the sky, with the hole's axis as z, and by how much it
   // moves: by delta, and by an angle of view across that, sin(delta) eta.
@@ -40,14 +33,12 @@ class KerrChart {
   // none.
   Place place(double delta, double eta, const Edge& edge) const;
 
-  int rows() const { return rows_; }        // of cells, from the edge on
-  int columns() const { return columns_; }  // around the hole
-  double end() const { return end_; }
+  int rows() const { return grid_.rows(); }        // of cells, from the edge on
+  int columns() const { return grid_.columns(); }  // around the hole
+  double end() const { return grid_.end(); }
   // Returns the direction of a place in the chart, which counts in cells.
-  struct Direction {
-    double delta, eta, by_row;  // the derivative of delta
-  };
-  Direction direction(double row, double column) const;
+  using Direction = KerrGrid::Direction;
+  Direction direction(double row, double column) const { return grid_.direction(row, column); }
   // Returns the unit vector of a place in the chart, and its derivatives by row and by column.
   struct Value {
     V3d sky, by_row, by_column;
@@ -57,22 +48,15 @@ class KerrChart {
   // which is more than the chart's error there.
   double error(double row, double column) const;
 
-  const KerrPlace& at() const { return at_; }
-  KerrEdge sky() const { return kind_; }
+  const KerrPlace& at() const { return grid_.at(); }
+  KerrEdge sky() const { return grid_.kind(); }
 
  private:
-  static constexpr int kGuard = 4;  // rows of nodes beyond each end
-
-  const V3d& node(int row, int column) const;
   template <int kCount>
   Value value_of(double row, double column) const;
   Place exact(double delta, double eta, const Edge& edge) const;
 
-  KerrPlace at_;
-  KerrEdge kind_;
-  double end_, step_;
-  int rows_, columns_;
-  std::vector<double> edges_;  // evenly in eta
+  KerrGrid grid_;
   std::vector<V3d> nodes_;
   std::vector<float> errors_;
 };

@@ -13,6 +13,7 @@ namespace domefall {
 struct KerrCharts {
   KerrPlace at;
   std::shared_ptr<const KerrChart> own, beyond;  // of region I, and of III between the horizons
+  std::shared_ptr<KerrPlaneKeeper> plane;
 
   bool operator==(const KerrPlace& place) const {
     return at.hole == place.hole && at.r == place.r && at.theta == place.theta;
@@ -34,6 +35,9 @@ class KerrLens : public Lens {
   std::unique_ptr<const SkyPoints> points(
       SkyRegion sky, const std::optional<PointTolerance>& tolerance) const override;
   V3d primary_image(const V3d& source) const override;
+  std::shared_ptr<const KerrPlane> kerr_plane(const KerrRings& rings) const override {
+    return charts_->plane->plane(charts_->at, rings);
+  }
 
  private:
   struct Seen;

@@ -107,7 +107,8 @@ TracedKerr trace_kerr_without_area(const KerrPlace& at, const KerrDirection& dir
   return trace_with<double>(at, direction);
 }
 
-std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection& direction) {
+std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection& direction,
+                                       std::size_t most) {
   const KerrStart start = kerr_start(at, direction);
   const KerrPath<double> path(start, kerr_roots(start));
   KerrSphere<double> sphere = sphere_of<double>(start);
@@ -118,7 +119,10 @@ std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection&
   const double side = static_cast<double>(start.mu.v) + sign * a * a * sine * sine;  // aL/|E|
   std::vector<KerrPassage> passages;
   double y = path.first(), mino = 0;
+  KerrPath<double>::Sum sum;
   for (const auto& crossing : sphere.crossings) {
+    if (passages.size() == most) break;
+    const double before = y;
     for (int i = 0; i < 60; ++i) {
       const double step = (crossing.mino - mino) / path.place(y).by_y;
       const double next = std::clamp(y + step, path.first(), (y + 7 * path.last()) / 8);
@@ -128,15 +132,18 @@ std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection&
       if (there) break;
     }
     if (y >= path.last()) break;  // on the past horizon, to the last digit
-    const KerrPath<double>::Sum sum = path.between(path.first(), y, sign);
+    const KerrPath<double>::Sum more = path.between(before, y, sign);
+    sum.angle += more.angle, sum.time += more.time;
     const auto place = path.place(y);
     const double across = sign * std::atan2(crossing.place[1], crossing.place[0]);
     KerrPassage passage{};
     passage.r = place.r;
     passage.outgoing = place.speed > 0;
+    passage.speed = place.speed / (place.r * place.r);
     passage.phi = std::remainder(sum.angle + across, 2 * M_PI);
     passage.null_time =
         sum.time - side * crossing.mino + sign * a * a * (crossing.mino - crossing.squares);
+    passage.mino = crossing.mino;
     passage.energy = energy;
     const auto y_term = static_cast<double>(start.kappa.v * std::sin(direction.eta));
     passage.angular_momentum = std::abs(energy) * sine * (y_term + sign * a * sine);

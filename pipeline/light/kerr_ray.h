@@ -2,6 +2,8 @@
 // (kerr_start.h).  docs/kerr.md says what is computed.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -30,10 +32,14 @@ struct KerrPassage {
   double phi;        // in the coordinates of light that falls, less the observer's, -pi to pi
   double null_time;  // v there, less the observer's
   bool outgoing;     // whether the photon moves outwards there
+  double speed;      // its r'/(|E| r^2), by Mino's time
+  double mino;       // |E| times Mino's time to the observer
   double energy, angular_momentum;
 };
-// Returns them as they follow each other back in time, as far as the past horizon.
-std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection& direction);
+// Returns them as they follow each other back in time, as far as the past horizon, and no more than so
+// many.
+std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection& direction,
+                                       std::size_t most = std::numeric_limits<std::size_t>::max());
 
 // Returns 1 + z of light that matter on a free circle emits at a passage, or nothing where there is no
 // such circle.

@@ -9,18 +9,18 @@ namespace {
 constexpr int kOrder = 24;
 
 template <class T>
-using Series = std::array<T, kOrder + 1>;
+using PowerSeries = std::array<T, kOrder + 1>;
 
 // The coefficients of N's Taylor series, and of N_z^2.
 template <class T>
 struct Expansion {
-  std::array<Series<T>, 3> n;
-  Series<T> squared;
+  std::array<PowerSeries<T>, 3> n;
+  PowerSeries<T> squared;
 
   explicit Expansion(const KerrSphere<T>& at) {
     for (std::size_t i = 0; i < 3; ++i) n[i][0] = at.place[i], n[i][1] = at.speed[i];
     const double a2 = at.spin * at.spin;
-    Series<T>& u = n[2];
+    PowerSeries<T>& u = n[2];
     for (std::size_t k = 0; k + 2 <= kOrder; ++k) {
       squared[k] = product(u, u, k);
       const double over = -1.0 / static_cast<double>((k + 1) * (k + 2));
@@ -31,7 +31,7 @@ struct Expansion {
     }
   }
 
-  static T product(const Series<T>& a, const Series<T>& b, std::size_t k) {
+  static T product(const PowerSeries<T>& a, const PowerSeries<T>& b, std::size_t k) {
     T sum = a[0] * b[k];
     for (std::size_t i = 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
     return sum;
@@ -42,7 +42,7 @@ struct Expansion {
     double least = 1e300;
     for (std::size_t k = kOrder - 1; k <= kOrder; ++k) {
       double most = 1e-300;
-      for (const Series<T>& s : n) most = std::max(most, std::abs(value(s[k])));
+      for (const PowerSeries<T>& s : n) most = std::max(most, std::abs(value(s[k])));
       least = std::min(least, std::pow(1e-17 / most, 1.0 / static_cast<double>(k)));
     }
     return least;
@@ -50,14 +50,14 @@ struct Expansion {
 };
 
 template <class T>
-T value_at(const Series<T>& s, double x) {
+T value_at(const PowerSeries<T>& s, double x) {
   T sum = s[kOrder];
   for (int k = kOrder - 1; k >= 0; --k) sum = sum * x + s[static_cast<std::size_t>(k)];
   return sum;
 }
 
 template <class T>
-T slope_at(const Series<T>& s, double x) {
+T slope_at(const PowerSeries<T>& s, double x) {
   T sum = s[kOrder] * double{kOrder};
   for (int k = kOrder - 1; k >= 1; --k)
     sum = sum * x + s[static_cast<std::size_t>(k)] * static_cast<double>(k);
@@ -65,7 +65,7 @@ T slope_at(const Series<T>& s, double x) {
 }
 
 template <class T>
-double integral_to(const Series<T>& s, double x) {
+double integral_to(const PowerSeries<T>& s, double x) {
   double sum = 0;
   for (int k = kOrder - 2; k >= 0; --k)
     sum = (sum + value(s[static_cast<std::size_t>(k)]) / (k + 1)) * x;
@@ -74,7 +74,7 @@ double integral_to(const Series<T>& s, double x) {
 
 // Returns the zero of u between two places where its signs differ.
 template <class T>
-double zero_between(const Series<T>& u, double low, double high) {
+double zero_between(const PowerSeries<T>& u, double low, double high) {
   const bool rising = value(value_at(u, high)) > 0;
   double x = (low + high) / 2;
   for (int i = 0; i < 60; ++i) {
@@ -97,7 +97,7 @@ void KerrSphere<T>::follow(double mino, bool with_crossings) {
   const bool on_equator = std::abs(value(place[2])) < 1e-15;
   for (double done = 0; done < mino;) {
     const Expansion<T> series(*this);
-    const Series<T>& u = series.n[2];
+    const PowerSeries<T>& u = series.n[2];
     const double reach = series.reach();
     const bool ends = reach >= mino - done;
     const double step = ends ? mino - done : reach;

@@ -13,6 +13,7 @@
 #include "pipeline/light/amplification.h"
 #include "pipeline/light/body_image.h"
 #include "pipeline/light/direction_batch.h"
+#include "pipeline/light/kerr_plane.h"
 #include "pipeline/light/light_path.h"
 #include "pipeline/light/plane_rays.h"
 #include "pipeline/light/sky_points.h"
@@ -153,6 +154,9 @@ class Lens {
   virtual std::unique_ptr<const PlaneRays> plane(const PlaneRings&, double) const {
     return nullptr;
   }
+
+  // Finds the same of the equator of a hole that spins.  The lens need not outlive it.
+  virtual std::shared_ptr<const KerrPlane> kerr_plane(const KerrRings&) const { return nullptr; }
 
   // Returns from where the lens sees matter all around the hole (light_path.h).  Nothing is returned
   // where that is not known.

@@ -76,7 +76,9 @@ std::shared_ptr<const Lens> LensStore::kerr_lens(const SpinningHole& hole,
                                                  const WantedSkies& wanted) {
   const KerrPlace at = kerr_place(hole, observer);
   tables_made_ = 0;
-  if (!charts_ || !(*charts_ == at)) charts_ = std::make_shared<KerrCharts>(KerrCharts{at, {}, {}});
+  if (!charts_ || !(*charts_ == at))
+    charts_ =
+        std::make_shared<KerrCharts>(KerrCharts{at, {}, {}, std::make_shared<KerrPlaneKeeper>()});
   const auto add = [&](bool seen, std::shared_ptr<const KerrChart>& chart, KerrEdge sky) {
     if (!seen || chart) return;
     chart = std::make_shared<const KerrChart>(at, sky);

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "pipeline/render/disc/disc_row.h"
+#include "pipeline/render/disc/kerr_strip.h"
 #include "pipeline/render/disc/rim_coverage.h"
+#include "pipeline/render/disc/sphere_strip.h"
 
 namespace domefall {
 namespace {
@@ -33,12 +35,20 @@ DiscPass::DiscPass(const FrameScene& scene) : scene_(scene) {
   const Disc& disc = scene.disc->disc();
   const ObserverState& observer = scene.state.observer;
   const V3d normal = apply_transposed(observer.sky_from_tetrad, disc.normal.v);
-  plane_ = scene.tracer.lens()->plane({normal, disc.inner, disc.outer, !disc.patterns.empty()},
-                                      observer.null_time);
+  const Lens& lens = *scene.tracer.lens();
+  kerr_plane_ = lens.kerr_plane({disc.inner, disc.outer});
+  if (!kerr_plane_)
+    plane_ =
+        lens.plane({normal, disc.inner, disc.outer, !disc.patterns.empty()}, observer.null_time);
   if (disc.height > 0) gas_.emplace(scene);
   pattern_ = scene.disc->pattern();
   node_ = apply_transposed(observer.sky_from_tetrad, disc.node.v);
   quarter_ = normal.cross(node_);
+}
+
+std::unique_ptr<DiscPass::Strip> DiscPass::make_strip() const {
+  if (kerr_plane_) return std::make_unique<KerrStrip>(*this);
+  return std::make_unique<SphereStrip>(*this);
 }
 
 void DiscPass::locate(const CameraDirection* n, const double* angle, int count,
@@ -53,6 +63,7 @@ double DiscPass::left_before(const CameraDirection& n, double psi, double width)
   // A body that moves in the plane itself is not hidden by the disc there.
   constexpr double kInPlane = 1e-6;
   if (gas_) return static_cast<double>(gas_->sight_before(n, psi).left);
+  if (kerr_plane_) return KerrStrip(*this).left_before(n, psi, width);
   Crossings pixel;
   locate(&n, &width, 1, pixel);
   if (!(pixel.energy[0] > 0)) return 1;
@@ -96,6 +107,7 @@ bool DiscPass::goes_outward(double turn, double label, double u) const {
 }
 
 std::vector<DiscPass::Place> DiscPass::places(const CameraDirection& n, double width) const {
+  if (kerr_plane_) return KerrStrip(*this).places(n, width);
   Crossings pixel;
   locate(&n, &width, 1, pixel);
   std::vector<Place> places;

@@ -4,6 +4,8 @@
 // covers follows from the pixel's distance to the image's two rims (PlaneImages), so that no image is
 // too thin to be seen.  For an observer close to the plane, psi_0 changes much within the pixels next
 // to the plane.  These are divided in psi.
+//
+// About a hole that spins, kerr_plane.h says where rays meet the plane, which is the hole's equator.
 #pragma once
 
 #include <memory>
@@ -11,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/light/kerr_plane.h"
 #include "pipeline/light/plane_rays.h"
 #include "pipeline/render/disc/gas_rays.h"
 #include "pipeline/render/scene/frame_scene.h"
@@ -63,7 +66,10 @@ class DiscPass {
 
  private:
   class Strip;
+  class SphereStrip;
+  class KerrStrip;
   class Row;
+  std::unique_ptr<Strip> make_strip() const;
   void draw(Row& line, int first, int end, float* rgb, float* left) const;
   void locate(const CameraDirection* n, const double* angle, int count, Crossings& crossings) const;
   // Gas is at r, and its light is seen at `frequency_ratio` times the frequency that it has there.  It
@@ -77,7 +83,9 @@ class DiscPass {
   bool goes_outward(double turn, double label, double u) const;
 
   const FrameScene& scene_;
+  // One of these is there.
   std::unique_ptr<const PlaneRays> plane_;
+  std::shared_ptr<const KerrPlane> kerr_plane_;
   std::optional<GasRays> gas_;  // of a disc with a height
   const DiscPattern* pattern_ = nullptr;
   V3d node_, quarter_;  // where azimuths of the pattern begin, and a quarter of a turn on

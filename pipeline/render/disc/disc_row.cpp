@@ -26,9 +26,6 @@ constexpr double kFaster = 1.6;
 constexpr double kMostThird = 0.02, kMostFourth = 0.006, kNextToRim = 0.25;
 // Places are judged by so many pixels, which makes them right to a fortieth of one.
 constexpr double kPixels = 100;
-// A Side says where a ray lies relative to the image of an order.  kWherePlunging is apart from
-// kWithin because the light has a kink where gas begins to plunge, which no cubic may cross.
-enum Side : unsigned { kBeneath, kWithin, kWherePlunging, kAbove };
 
 // The numbers of a look behind its light's r, g and b.
 enum LookNumber : std::size_t { kRadius = 3, kAzimuth, kTime, kRadiusWidth, kAzimuthWidth };
@@ -68,7 +65,7 @@ DiscPass::Row::Row(const DiscPass& pass, bool with_nodes)
     : pass_(pass),
       exposure_(static_cast<float>(pass.scene_.exposure * pass.scene_.state.settings.disc_gain)),
       with_nodes_(with_nodes),
-      strip_(pass) {
+      strip_(pass.make_strip()) {
   const auto width = static_cast<std::size_t>(columns(pass.scene_.projection()));
   nodes_.reserve(width / kStep + 1);
   single_.reserve(width);
@@ -108,10 +105,10 @@ void DiscPass::Row::fill_orders(int row, std::span<float* const> orders) {
   for (int at = inside.first; at <= inside.last; at += Strip::kSize) {
     const int count = std::min(Strip::kSize, inside.last + 1 - at);
     locate(row, count, [at](int k) { return at + k; });
-    strip_.gather(crossings_, count);
+    strip_->gather();
     for (std::size_t order = 0; order < orders.size(); ++order)
       for (int k = 0; k < count; ++k)
-        orders[order][at + k] = static_cast<float>(strip_.taken(k, order));
+        orders[order][at + k] = static_cast<float>(strip_->taken(k, order));
   }
 }
 
@@ -125,27 +122,28 @@ void DiscPass::Row::locate(int row, int count, const ColumnOf& column_of) {
     j[static_cast<std::size_t>(k)] = row + 1;
   }
   find_directions(pass_.scene_.projection(), i.data(), j.data(), count, n.data(), angle.data());
-  pass_.locate(n.data(), angle.data(), count, crossings_);
+  strip_->locate(n.data(), angle.data(), count);
 }
 
 void DiscPass::Row::find_nodes(int row, int first, int count) {
   locate(row, count, [&](int k) { return first_ + (first + k) * kStep; });
   std::array<bool, Strip::kSize> lit{};
   for (int k = 0; k < count; ++k) {
-    const Node& node = nodes_[static_cast<std::size_t>(first + k)] = sighted(crossings_, k);
-    lit[static_cast<std::size_t>(k)] = node.lit;
+    Node& node = nodes_[static_cast<std::size_t>(first + k)] = {};
+    node.seen = strip_->sighting(k);
+    lit[static_cast<std::size_t>(k)] = node.seen.lit;
   }
-  strip_.look(crossings_, count, lit.data());
+  strip_->look(lit.data());
   for (int k = 0; k < count; ++k) {
     Node& node = nodes_[static_cast<std::size_t>(first + k)];
     note_looks(node, first + k > 0 ? nodes_[static_cast<std::size_t>(first + k - 1)] : node, k);
-    node.left = strip_.left(k);
+    node.left = strip_->left(k);
   }
 }
 
 // Azimuths go on from those of the node before.
 void DiscPass::Row::note_looks(Node& node, const Node& before, int k) {
-  const Strip::Looks& seen = strip_.looks(k);
+  const Strip::Looks& seen = strip_->looks(k);
   for (std::size_t n = 0; n < seen.at.size() && static_cast<int>(n) < seen.count; ++n) {
     const auto& [light, at] = seen.at[n];
     const double turned =
@@ -160,67 +158,17 @@ void DiscPass::Row::note_looks(Node& node, const Node& before, int k) {
   node.count = seen.count;
 }
 
-DiscPass::Row::Node DiscPass::Row::sighted(const Crossings& crossings, int k) const {
-  constexpr double kFar = 1e3;
-  constexpr unsigned kNoLight = ~0u;
-  Node node;
-  if (!(crossings.energy[k] > 0)) {
-    node.sight = kNoLight;
-    node.clearance = kFar;
-    return node;
-  }
-  // Where the azimuth or psi_0 changes too much from node to node, the clearance stays 0.
-  const double turned = kStep * crossings.azimuth_per[k];
-  const double toward = pass_.plane_->across() * crossings.azimuth_cosine[k];
-  const double up = pass_.plane_->up(), from_plane = std::sqrt(up * up + toward * toward);
-  if (turned > kSteady || turned * pass_.plane_->across() > kSteady * from_plane) return node;
-  const double p = crossings.label[k], per = crossings.label_per[k];
-  const PlaneImages& images = pass_.plane_->images();
-  double clearance = kFar;
-  // Each order sets two bits of the sight.  A ray far from the range of an order needs no interval.
-  for (int order = 0; order < images.orders(); ++order) {
-    const double beneath = (images.least(order) - p) / per,
-                 above = (p - images.greatest(order)) / per;
-    Side place = kBeneath;
-    constexpr double kNotNear = 4 * kStep;
-    if (above > kNotNear) {
-      place = kAbove;
-    } else if (!(beneath > kNotNear)) {
-      const double turn = crossings.turn[k] + order * pi, turn_per = crossings.turn_per[k];
-      const PlaneImages::Interval rims = images.interval(turn);
-      const double over_low = (p - rims.low) / (per + std::abs(rims.low_slope) * turn_per),
-                   over_high = (p - rims.high) / (per + std::abs(rims.high_slope) * turn_per);
-      clearance = std::min({clearance, std::abs(over_low), std::abs(over_high)});
-      if (over_high >= 0) {
-        place = kAbove;
-      } else if (over_low >= 0) {
-        const double u = (p - rims.low) / (rims.high - rims.low);
-        const Disc& disc = pass_.scene_.disc->disc();
-        const double stable = disc.orbits.last_stable();
-        const bool plunges = disc.inner < stable && images.inverse_radius(turn, u) * stable > 1;
-        place = plunges ? kWherePlunging : kWithin;
-      }
-    }
-    node.sight |= static_cast<unsigned>(place) << (2 * order);
-    if (place == kBeneath || place == kAbove) continue;
-    node.lit = true;
-    if (pass_.scene_.state.settings.disc_opacity == 1 && pass_.scene_.disc->disc().is_opaque())
-      break;
-  }
-  node.clearance = clearance;
-  return node;
-}
-
 // Says whether no rim touches a pixel at two neighbouring nodes or between them.
 bool DiscPass::Row::joined(const Node& a, const Node& b) const {
-  return a.sight == b.sight && a.clearance > kRimReach && b.clearance > kRimReach &&
-         a.clearance + b.clearance > kFaster * (kStep + 2 * kRimReach);
+  return a.seen.sight == b.seen.sight && a.seen.clearance > kRimReach &&
+         b.seen.clearance > kRimReach &&
+         a.seen.clearance + b.seen.clearance > kFaster * (kStep + 2 * kRimReach);
 }
 
 // Draws the cells between nodes that see the same images.  Pixels of cells that no cubic can draw
 // are noted in single_.
 void DiscPass::Row::draw_run(std::size_t first, std::size_t last, float* rgb) {
-  if (!nodes_[first].lit) return;
+  if (!nodes_[first].seen.lit) return;
   for (std::size_t at = first; at < last; ++at) {
     const int column = first_ + static_cast<int>(at) * kStep;
     if (last - first + 1 >= kJudges) {
@@ -318,11 +266,11 @@ void DiscPass::Row::draw_singly(int row, float* rgb) {
     const int* column = &single_[at];
     const int count = static_cast<int>(std::min<std::size_t>(single_.size() - at, Strip::kSize));
     locate(row, count, [column](int k) { return column[k]; });
-    strip_.gather(crossings_, count);
+    strip_->gather();
     for (int k = 0; k < count; ++k) {
-      const auto left = static_cast<float>(strip_.left(k));
+      const auto left = static_cast<float>(strip_->left(k));
       if (left_) left_[column[k]] = left;
-      const WorkingRgb& light = strip_.light(k);
+      const WorkingRgb& light = strip_->light(k);
       float* pixel = rgb + 3 * static_cast<std::ptrdiff_t>(column[k]);
       pixel[0] = left * pixel[0] + exposure_ * light.r;
       pixel[1] = left * pixel[1] + exposure_ * light.g;

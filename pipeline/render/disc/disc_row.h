@@ -10,6 +10,7 @@
 // without it.  So these are interpolated, and the pattern is found at each pixel.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "pipeline/render/disc/disc_strip.h"
@@ -34,10 +35,7 @@ class DiscPass::Row {
   static constexpr int kStep = 8;  // pixels from node to node
 
   struct Node {
-    // For each order two bits say where the ray lies.  Orders behind an opaque image have none set.
-    unsigned sight = 0;
-    bool lit = false;      // whether it is in an image
-    double clearance = 0;  // pixels to the nearest rim, at least; 0 where that cannot be told
+    Strip::Sighting seen;
     // What the pixel sees: light, and the place for the pattern.
     int count = 0;
     std::array<std::array<double, 8>, Strip::kMostLooks> looks;
@@ -56,7 +54,6 @@ class DiscPass::Row {
   template <class ColumnOf>
   void locate(int row, int count, const ColumnOf& column_of);
   void find_nodes(int row, int first, int count);
-  Node sighted(const Crossings& crossings, int k) const;
   bool joined(const Node& a, const Node& b) const;
   void draw_run(std::size_t first, std::size_t last, float* rgb);
   void note_looks(Node& node, const Node& before, int k);
@@ -68,8 +65,7 @@ class DiscPass::Row {
   const DiscPass& pass_;
   float exposure_;
   bool with_nodes_;
-  Strip strip_;
-  Crossings crossings_;
+  std::unique_ptr<Strip> strip_;
   float* left_ = nullptr;
   int first_ = 0;  // column of the first node
   std::vector<Node> nodes_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "pipeline/render/disc/disc_pass.h"
 
@@ -12,8 +13,25 @@ namespace domefall {
 class DiscPass::Strip {
  public:
   static constexpr int kSize = ViewRayBatch::kSize;
+  static constexpr int kOrders = PlaneImages::kOrders;
 
   explicit Strip(const DiscPass& pass);
+  Strip(const Strip&) = delete;
+  Strip& operator=(const Strip&) = delete;
+  virtual ~Strip() = default;
+
+  // Finds where `count` <= kSize pixels of these directions and widths (radians) see the disc.  All
+  // that follows is about them.
+  virtual void locate(const CameraDirection* n, const double* angle, int count) = 0;
+
+  // A Sighting says where the ray of a pixel lies.
+  struct Sighting {
+    // For each order two bits, of a Side.  Orders behind an opaque image have none set.
+    unsigned sight = 0;
+    bool lit = false;      // whether it is in an image
+    double clearance = 0;  // pixels to the nearest rim, at least; 0 where that cannot be told
+  };
+  virtual Sighting sighting(int k) const = 0;
 
   // A Look is what a pixel sees at one place: the place, and light that no pattern has multiplied.
   struct Look {
@@ -27,10 +45,10 @@ class DiscPass::Strip {
     std::array<Look, kMostLooks> at;
   };
 
-  // Finds light() and left() of `count` <= kSize pixels.
-  void gather(const Crossings& crossings, int count);
+  // Finds light() and left() of all pixels.
+  void gather();
   // Finds looks() and left() of those that are `wanted`.
-  void look(const Crossings& crossings, int count, const bool* wanted);
+  void look(const bool* wanted);
 
   // These return the light that the k-th pixel gets from the disc (cd/m^2), and the part of the
   // light from behind that is left there.
@@ -42,48 +60,37 @@ class DiscPass::Strip {
     return taken_[static_cast<std::size_t>(k)][order];
   }
 
+ protected:
+  // Where a ray lies relative to the image of an order.  kWherePlunging is apart from kWithin because
+  // the light has a kink where gas begins to plunge, which no cubic may cross.
+  enum Side : unsigned { kBeneath, kWithin, kWherePlunging, kAbove };
+  static constexpr unsigned kNoLight = ~0u;
+  static constexpr double kFar = 1e3;  // of a clearance
+
+  static double length(double x, double y) { return __builtin_sqrt(x * x + y * y); }
+
+  // Adds the samples of a pixel, and returns the part of the light from behind that is left.
+  virtual double gather_pixel(int k) = 0;
+  // Adds a sample of gas, whose light counts with a weight.  The place is for a pattern alone.
+  void add(int k, const Gas& gas, double weight, const PatternPlace& place);
+  double& take(int k, int order) {
+    return taken_[static_cast<std::size_t>(k)][static_cast<std::size_t>(order)];
+  }
+
+  const DiscPass& pass_;
+  const Disc& disc_;
+  int pixels_ = 0;
+
  private:
-  // A Division is a part of a pixel in which psi_0 changes little.  As a rule it is the whole
-  // pixel.
-  struct Division {
-    double turn, turn_per;  // psi_0, and by how much it changes here
-    double azimuth_cosine, azimuth_sine;
-    double part;  // of the pixel
-  };
-  // A Share gives the part of a pixel that lies beyond an image's inner rim, and the part beyond
-  // its outer rim.  The image covers what is between these two.
-  struct Share {
-    double from, to;
-  };
-
-  // Samples are the places at which a pixel looks at an image, each with an even part of u.
-  static constexpr int kMostSamples = 32;
-  struct Samples {
-    int count = 0;
-    double part = 0, absorbed = 0;  // of u, of one; the sum over all
-    std::array<double, kMostSamples> u;
-    std::array<Gas, kMostSamples> gas;
-  };
-
-  void gather(const Crossings& crossings, int count, const bool* wanted);
-  double gather_by_divisions(const Crossings& crossings, int k);
-  double gather_division(const Crossings& crossings, int k, const Division& division);
-  Samples sample(const Crossings& crossings, int k, const Division& division, double turn,
-                 const PlaneImages::Interval& rims, const Share& share) const;
-  void shade(const Crossings& crossings, int k, const Division& division, double turn,
-             const Samples& samples, double weight);
-  void note_place(const Crossings& crossings, int k, const Division& division, double turn,
-                  double u, double part);
+  void gather(const bool* wanted);
   void flush();
   void note_looks(std::size_t count);
 
-  const DiscPass& pass_;
   const Effects& effects_;
-  const Disc& disc_;
   template <class T>
   using Column = std::array<T, kSize>;
   Column<double> left_{};
-  Column<std::array<double, PlaneImages::kOrders>> taken_{};
+  Column<std::array<double, kOrders>> taken_{};
   Column<WorkingRgb> light_{}, colour_{};
   Column<Looks> looks_{};
   bool looks_only_ = false;

@@ -102,16 +102,33 @@ std::vector<PatternKind> read_patterns(const Item& item, const Disc& disc, const
 }
 
 // Returns the orbits of gas about the hole of a show, and reports a show where none circles.
-std::optional<GasOrbits> orbits_of_gas(const Item& item, const Show& to) {
+std::optional<GasOrbits> orbits_of_gas(const Item& item, const Show& to, bool retrograde = false) {
   if (to.spacetime.is_flat()) item.fail("needs a black hole: give the show black_hole.mass_solar");
   if (to.spacetime.is<Wormhole>()) item.fail("needs a black hole: nothing circles a wormhole");
-  if (to.spacetime.is<SpinningHole>())
-    item.fail("needs a hole without spin: gas about one that spins is not drawn yet");
+  if (const auto* spinning = std::get_if<SpinningHole>(&to.spacetime.kind()))
+    return GasOrbits(spinning->kerr, retrograde);
   const auto* hole = std::get_if<ChargedHole>(&to.spacetime.kind());
   if (!hole) return GasOrbits();
   if (!hole->is_naked()) return GasOrbits(*hole);
   item.fail("needs a hole with a horizon: gas about a naked singularity is not drawn");
   return std::nullopt;
+}
+
+// Returns the plane of gas, which is the equator of a hole that spins.  There gas that goes against the
+// hole has the other end of the axis as its normal.
+OrbitPlane read_gas_plane(const Section& s, const Show& to, bool retrograde) {
+  const auto* hole = std::get_if<SpinningHole>(&to.spacetime.kind());
+  if (!hole) return read_orbit_plane(s, to);
+  if (const Item* tilt = s.find("inclination_deg"))
+    tilt->fail("cannot be given: about a hole that spins gas lies in its equator");
+  const V3d axis = axis_of(*hole), normal = retrograde ? -axis : axis;
+  const M33d at_start = place_tetrad(to.hole_at, to.heading, 0);
+  const V3d place = column(at_start, 0), along = place - axis * axis.dot(place);
+  constexpr double kOnAxis = 1e-6;
+  const V3d from =
+      (along.length() > kOnAxis ? along : axis.cross(column(at_start, 1))).normalized();
+  const double angle = s.angle("node_deg");
+  return {{from * std::cos(angle) + normal.cross(from) * std::sin(angle)}, {normal}};
 }
 
 // Reads a halo or a jet, by what is its own and by what they have in common.  Their axis is the disc's
@@ -127,7 +144,8 @@ std::optional<Gas> read_thin_gas(const Section& show, std::string_view key, cons
     item->fail("needs a disc with a height, which it can shine through: give disc.height");
   Gas gas;
   const bool tilted = s.find("inclination_deg") || s.find("node_deg");
-  gas.normal = to.disc && !tilted ? to.disc->normal : read_orbit_plane(s, to).normal;
+  const bool spins = to.spacetime.is<SpinningHole>();
+  gas.normal = to.disc && !tilted && !spins ? to.disc->normal : read_gas_plane(s, to, false).normal;
   gas.r = s.number("r");
   gas.luminance = s.number("luminance_cd_m2");
   gas.temperature = s.given("t_k");
@@ -152,10 +170,13 @@ std::optional<Disc> read_disc(const Section& show, const Show& to, const Lookup&
   if (item == nullptr) return std::nullopt;
   const Section s(item, {"disc", "disc.light"});
   Disc disc;
-  if (const auto orbits = orbits_of_gas(*item, to)) disc.orbits = *orbits;
+  const bool retrograde = s.flag("retrograde");
+  if (retrograde && !to.spacetime.is<SpinningHole>())
+    s.find("retrograde")->fail("needs a hole that spins: give black_hole.spin");
+  if (const auto orbits = orbits_of_gas(*item, to, retrograde)) disc.orbits = *orbits;
   disc.plunging = s.flag("plunging");
   read_radii(s, disc);
-  const OrbitPlane plane = read_orbit_plane(s, to);
+  const OrbitPlane plane = read_gas_plane(s, to, retrograde);
   disc.node = plane.node, disc.normal = plane.normal;
   disc.t_max_k = s.number("t_max_k");
   disc.luminance = s.number("luminance_cd_m2");

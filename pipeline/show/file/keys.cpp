@@ -252,10 +252,11 @@ constexpr std::string_view kRows = R"(
 | `saturation` | 0 to 2: how far colours are from grey; 1 is the colour that the CIE's observer sees of a blackbody | [0.8], with `size` 1 |
 | `least_radius_deg` | above 0, at most 1: the angular radius that every star has at least, below | [0.005] |
 ## disc
-| `inner_r` | 6 to 1e6: where it ends inside, with `plunging: true` from 2 on; near a charge from its last stable orbit and its horizon on, which are less | [6, the last stable orbit; with `plunging` 2, the horizon] |
+| `inner_r` | 6 to 1e6: where it ends inside, with `plunging: true` from 2 on; with a charge or a spin from its last stable orbit and its horizon on | [6, the last stable orbit; with `plunging` 2, the horizon] |
 | `outer_r` | above 2, at most 1e6: where it ends outside, above `inner_r` | [20] |
 | `inclination_deg` | 0 to 180: the angle between its plane and that of the orbits that set out as `heading_deg` says; with more than 90 it turns against them | [10] |
 | `node_deg` | -360 to 360: where its gas rises through the plane of the orbits to their north, as an azimuth from the observer's first place in the sense of the orbits | [90] |
+| `retrograde` | `true` or `false`: whether it goes against a hole that spins | [`false`] |
 | `t_max_k` | 1000 to 1e9: the temperature of its hottest ring; gold at 3000, like the Sun at 6000, blue at 20000 | [3000] |
 | `optical_depth` | above 0, at most 1e6: through the gas at right angles; with less than 1 stars shine through, and along its plane all gas is opaque | [6] |
 | `rim` | 0 to 0.5 of its radius: over which it thins out at its inner and outer end | [0.2] |
@@ -277,7 +278,7 @@ constexpr std::string_view kRows = R"(
 | `contrast` | 0 to 1: with 1 the gaps go dark | [0.8] |
 | `inward_speed` | 0 to 0.5 parts of the speed of light: how fast they drift inwards | [0.02] |
 ## spot
-| `r` | 6 to 1e6: the radius of its orbit; near a charge from the last stable one on | [8] |
+| `r` | 6 to 1e6: the radius of its orbit; with a charge or a spin from the last stable one on | [8] |
 | `azimuth_deg` | -360 to 360: where it is at t = 0, in its orbit's sense from where the gas rises through the plane of the observer's orbits | [0] |
 | `size_r` | 0.01 to 10: the standard deviation of its brightness | [0.7] |
 | `brightness` | 1 to 1e4 times the gas beside it: of its middle | [5] |

@@ -83,8 +83,12 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   has(complaint("black_hole: {mass_solar: 4, axis: {ra_deg: 1, dec_deg: 2}}\n"),
       "axis is that of a hole that spins");
   has(complaint("black_hole: {spin: 0.5}\n"), "spin is of a hole, which needs mass_solar");
-  has(complaint("black_hole: {mass_solar: 4, spin: 0.5}\ndisc: {}\n"),
-      "gas about one that spins is not drawn yet");
+  has(complaint("black_hole: {mass_solar: 4, spin: 0.5}\ndisc: {inclination_deg: 3}\n"),
+      "inclination_deg cannot be given: about a hole that spins gas lies in its equator");
+  has(complaint("black_hole: {mass_solar: 4, spin: 0.5}\ndisc: {retrograde: true, inner_r: 7}\n"),
+      "inner_r must be at least 7.5545");
+  has(complaint("black_hole: {mass_solar: 4}\ndisc: {retrograde: true}\n"),
+      "retrograde needs a hole that spins");
   has(complaint("black_hole: {mass_solar: 4, spin: 0.5}\nbodies: {a: {r: 9}}\n"),
       "bodies about one that spins are not drawn yet");
   has(complaint_of("{type: static, r: 1.9}"),

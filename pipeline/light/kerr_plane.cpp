@@ -1,0 +1,226 @@
+#include "pipeline/light/kerr_plane.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/light/kerr_ray.h"
+#include "pipeline/light/lagrange.h"
+
+namespace domefall {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int kPlaneRows = 128, kPlaneColumns = 192;
+constexpr int kPlanePoints = 6;
+// Cells are rough where polynomials of four and of six nodes differ by this part of w.
+constexpr double kMostOff = 1e-4;
+
+}  // namespace
+
+KerrPlane::KerrPlane(const KerrPlace& at, const KerrRings& rings) : rings_(rings) {
+  for (const double end : {pi, 0.0}) {
+    sides_.push_back({KerrGrid(at, KerrEdge::kSilhouette, end, kPlaneRows, kPlaneColumns), {}, {}});
+    fill(sides_.back());
+    judge(sides_.back());
+  }
+}
+
+std::shared_ptr<const KerrPlane> KerrPlaneKeeper::plane(const KerrPlace& at,
+                                                        const KerrRings& rings) {
+  const std::lock_guard lock(mutex_);
+  if (!plane_ || rings_ != rings)
+    plane_ = std::make_shared<const KerrPlane>(at, rings), rings_ = rings;
+  return plane_;
+}
+
+// Returns E, L and K of a ray, and how far its direction is from the edge.
+KerrPlane::Sight KerrPlane::beginning(double delta, double eta) const {
+  const KerrPlace& from = at();
+  const auto r = static_cast<double>(from.r), a = static_cast<double>(from.hole.spin);
+  const double sine = std::sin(static_cast<double>(from.theta)),
+               sigma = r * r + static_cast<double>(from.sigma());
+  const double s = std::sin(delta / 2), c = std::cos(delta / 2), root = std::sqrt(sigma);
+  const double y = root * sine * 2 * s * c * std::sin(eta);
+  const double p = sigma * s * s + static_cast<double>(from.delta()) * c * c;
+  Sight sight{};
+  sight.energy = (p + a * y) / sigma;
+  sight.momentum = root * 2 * s * c;
+  sight.about_axis = y + a * sight.energy * sine * sine;
+  const auto horizon = static_cast<double>(from.hole.horizon());
+  // Light that an observer in the hole gets from its other side does not come from region I.
+  if (r < horizon && !(sight.energy * (horizon * horizon + a * a) > a * sight.about_axis))
+    sight.energy = 0;
+  return sight;
+}
+
+// Returns whether an order is there at all.
+bool KerrPlane::exact_nodes(const KerrDirection& n, std::array<Node, kOrders>& nodes) const {
+  for (Node& node : nodes) node.fill(std::nan(""));
+  const auto delta =
+      static_cast<double>(n.edge ? critical_ray(at(), n.eta, *n.edge).delta + n.offset : n.delta);
+  if (!(beginning(delta, static_cast<double>(n.eta)).energy > 0)) return false;
+  std::size_t order = 0;
+  for (const KerrPassage& passage : kerr_passages(at(), n, nodes.size()))
+    nodes[order++] = {1 / passage.r, passage.phi, passage.null_time, passage.speed};
+  return order > 0;
+}
+
+void KerrPlane::fill(Side& side) {
+  constexpr int kGuard = KerrGrid::kGuard;
+  const std::size_t count = side.grid.nodes();
+  side.nodes.resize(count * kOrders);
+  tbb::parallel_for(-kGuard, kPlaneRows + kGuard + 1, [&](int row) {
+    for (int column = 0; column < kPlaneColumns; ++column) {
+      std::array<Node, kOrders> nodes;
+      exact_nodes(side.grid.direction(row, column), nodes);
+      for (std::size_t order = 0; order < nodes.size(); ++order)
+        side.nodes[order * count + side.grid.node(row, column)] = nodes[order];
+    }
+  });
+  tbb::parallel_for(0, kPlaneColumns, [&](int column) {
+    for (int order = 0; order < kOrders; ++order) continue_column(side, column, order);
+  });
+}
+
+// Beyond the rows in which rays cross the plane, the values go on a little as they did.
+void KerrPlane::continue_column(Side& side, int column, int order) const {
+  constexpr int kGuard = KerrGrid::kGuard, kOn = 4;
+  const std::size_t begin = static_cast<std::size_t>(order) * side.grid.nodes();
+  const auto node = [&](int row) -> Node& {
+    return side.nodes[begin + side.grid.node(row, column)];
+  };
+  int there = -kGuard;
+  while (there <= kPlaneRows + kGuard && std::isfinite(node(there)[0])) ++there;
+  if (there < 3 - kGuard) return;
+  for (int on = 0; on < kOn && there + on <= kPlaneRows + kGuard; ++on) {
+    const Node &a = node(there + on - 3), &b = node(there + on - 2), &c = node(there + on - 1);
+    Node& next = node(there + on);
+    if (std::isfinite(next[0])) return;
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      const auto near = [&](double angle) {
+        return k == 1 ? c[k] + std::remainder(angle - c[k], 2 * pi) : angle;
+      };
+      next[k] = 3 * c[k] - 3 * near(b[k]) + near(a[k]);
+    }
+  }
+}
+
+template <int kCount>
+KerrPlane::Node KerrPlane::interpolated(const Side& side, int order, double row, double column,
+                                        Node* by_row, Node* by_column) const {
+  const double i = std::clamp(std::floor(row), 0.0, kPlaneRows - 1.0), j = std::floor(column);
+  const LagrangeWeights<kCount> down(row - i), on(column - j);
+  const int top = static_cast<int>(i) + 1 - kCount / 2, left = static_cast<int>(j) + 1 - kCount / 2;
+  const Node* const nodes = side.nodes.data() + static_cast<std::size_t>(order) * side.grid.nodes();
+  const double whole = nodes[side.grid.node(static_cast<int>(i), static_cast<int>(j))][1];
+  Node value{};
+  if (by_row) by_row->fill(0), by_column->fill(0);
+  for (int k = 0; k < kCount; ++k) {
+    Node sum{}, slope{};
+    for (int m = 0; m < kCount; ++m) {
+      Node v = nodes[side.grid.node(top + k, left + m)];
+      v[1] -= 2 * pi * std::round((v[1] - whole) / (2 * pi));
+      for (std::size_t n = 0; n < v.size(); ++n) {
+        sum[n] += v[n] * on.w[static_cast<std::size_t>(m)];
+        if (by_row) slope[n] += v[n] * on.slope[static_cast<std::size_t>(m)];
+      }
+    }
+    for (std::size_t n = 0; n < value.size(); ++n) {
+      value[n] += sum[n] * down.w[static_cast<std::size_t>(k)];
+      if (!by_row) continue;
+      (*by_row)[n] += sum[n] * down.slope[static_cast<std::size_t>(k)];
+      (*by_column)[n] += slope[n] * down.w[static_cast<std::size_t>(k)];
+    }
+  }
+  return value;
+}
+
+// Cells are empty if no ring may be seen in them, even if w changes from node to node as much again.
+void KerrPlane::judge(Side& side) const {
+  side.cells.resize(static_cast<std::size_t>(kOrders * kPlaneRows * kPlaneColumns));
+  tbb::parallel_for(0, kPlaneRows, [&](int row) {
+    for (int order = 0; order < kOrders; ++order)
+      for (int column = 0; column < kPlaneColumns; ++column) {
+        const std::size_t begin = static_cast<std::size_t>(order) * side.grid.nodes();
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (int down = -1; down <= 2; ++down)
+          for (int on = -1; on <= 2; ++on) {
+            const double w = side.nodes[begin + side.grid.node(row + down, column + on)][0];
+            if (std::isfinite(w)) low = std::min(low, w), high = std::max(high, w);
+          }
+        const auto six = interpolated<kPlanePoints>(side, order, row + 0.5, column + 0.5, nullptr,
+                                                    nullptr),
+                   four = interpolated<kPlanePoints - 2>(side, order, row + 0.5, column + 0.5,
+                                                         nullptr, nullptr);
+        const bool empty = high < 1 / rings_.outer || low > 1 / rings_.inner;
+        const bool smooth = std::abs(six[0] - four[0]) < kMostOff * std::abs(six[0]);
+        side.cells[static_cast<std::size_t>((order * kPlaneRows + row) * kPlaneColumns + column)] =
+            empty    ? Cell::kEmpty
+            : smooth ? Cell::kSmooth
+                     : Cell::kRough;
+      }
+  });
+}
+
+KerrPlane::Sight KerrPlane::sight(double delta, double eta) const {
+  Sight sight = beginning(delta, eta);
+  const KerrGrid::Edge edge = sides_[0].grid.edge(eta);
+  sight.to_edge = delta - edge.delta;
+  if (!(sight.energy > 0)) return sight;
+  const Side& side = sides_[sight.to_edge > 0 ? 0 : 1];
+  const KerrGrid::Place in = side.grid.place(delta, eta, edge);
+  if (!(in.row >= 0)) return sight;
+  const double row = std::min(in.row, static_cast<double>(kPlaneRows)),
+               sine = std::max(std::sin(delta), 1e-9);
+  const int i = std::min(static_cast<int>(row), kPlaneRows - 1),
+            j = static_cast<int>(std::floor(in.column)),
+            on = (j % kPlaneColumns + kPlaneColumns) % kPlaneColumns;
+  for (int order = 0; order < kOrders; ++order) {
+    const Cell cell =
+        side.cells[static_cast<std::size_t>((order * kPlaneRows + i) * kPlaneColumns + on)];
+    if (cell == Cell::kEmpty) continue;
+    if (cell == Cell::kRough) return exact_sight(delta, eta);
+    Node by_row, by_column;
+    const Node at = interpolated<kPlanePoints>(side, order, row, in.column, &by_row, &by_column);
+    const auto value = [&](std::size_t n) {
+      return Value{at[n], by_row[n] * in.row_by_delta,
+                   (by_row[n] * in.row_by_eta + by_column[n] * side.grid.column_by_eta()) / sine};
+    };
+    const auto k = static_cast<std::size_t>(order);
+    sight.crosses[k] = true;
+    sight.at[k] = {value(0), value(1), value(2), value(3)};
+  }
+  return sight;
+}
+
+KerrPlane::Sight KerrPlane::exact_sight(double delta, double eta) const {
+  constexpr double kStep = 1e-5;
+  Sight sight = beginning(delta, eta);
+  sight.to_edge = delta - sides_[0].grid.edge(eta).delta;
+  const double sine = std::max(std::sin(delta), 1e-9);
+  std::array<Node, kOrders> here, beyond, beside;
+  if (!exact_nodes({delta, eta}, here)) return sight;
+  // Away from the edge, so that the order of the images stays.
+  const double step = std::copysign(std::min(kStep, std::abs(sight.to_edge) / 8), sight.to_edge);
+  exact_nodes({delta + step, eta}, beyond);
+  exact_nodes({delta, eta + std::abs(step) / sine}, beside);
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    sight.crosses[k] = std::isfinite(here[k][0]);
+    if (!sight.crosses[k]) break;
+    const auto value = [&](std::size_t n) {
+      const auto change = [&](const Node& there) {
+        const double by = there[n] - here[k][n];
+        return std::isfinite(by) ? (n == 1 ? std::remainder(by, 2 * pi) : by) : 0;
+      };
+      return Value{here[k][n], change(beyond[k]) / step, change(beside[k]) / std::abs(step)};
+    };
+    sight.at[k] = {value(0), value(1), value(2), value(3)};
+  }
+  return sight;
+}
+
+}  // namespace domefall

@@ -1,0 +1,91 @@
+// Discs about a hole that spins.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/light/kerr_plane.h"
+#include "pipeline/light/kerr_ray.h"
+#include "tests/pipeline/render/disc/disc_views.h"
+#include "tests/pipeline/show/show_file.h"
+
+namespace domefall {
+namespace {
+
+class KerrDisc : public ShowFile {
+ protected:
+  Show show(const std::string& spin, const std::string& disc, const std::string& at) {
+    Show s = read(
+        "size: [96, 96]\ncamera: {projection: rectilinear, fov_deg: 70, look_at: hole}\n"
+        "black_hole: {mass_solar: 1e8" +
+        spin +
+        "}\nglare: {share: 0}\nsky: {region_I: {background: black, stars: {max_magnitude: "
+        "-9}}}\ndisc: {" +
+        disc + "}\ntimeline:\n  - {duration_s: 1, trajectory: {type: static, " + at + "}}\n");
+    return s;
+  }
+  // Returns the mean difference of two frames over the mean light, and the part of the pixels that
+  // differ by more than 1 % of that or of themselves.
+  static std::pair<double, double> differences(const FloatImage& a, const FloatImage& b) {
+    double light = 0, off = 0;
+    int differ = 0;
+    std::vector<double> values;
+    for (int row = 0; row < a.height; ++row)
+      for (int column = 0; column < a.width; ++column) light += double{pixel_at(a, column, row).g};
+    const double mean = light / (a.height * a.width);
+    for (int row = 0; row < a.height; ++row)
+      for (int column = 0; column < a.width; ++column) {
+        const double x = double{pixel_at(a, column, row).g}, y = double{pixel_at(b, column, row).g};
+        off += std::abs(x - y);
+        differ += std::abs(x - y) > 0.01 * std::max({x, y, mean});
+      }
+    return {off / light, differ / static_cast<double>(a.height * a.width)};
+  }
+};
+
+TEST_F(KerrDisc, GoesOverIntoThatWithoutSpin) {
+  for (const std::string disc : {"outer_r: 20", "outer_r: 12, plunging: true, optical_depth: 1"}) {
+    const FloatImage still =
+        render_floats(show("", disc + ", inclination_deg: 20, node_deg: 90", "r: 30"));
+    const FloatImage slow = render_floats(show(", spin: 1e-9", disc, "r: 30, latitude_deg: 20"));
+    const auto [mean, differ] = differences(still, slow);
+    EXPECT_LT(mean, 8e-3) << disc;
+    EXPECT_LT(differ, 0.03) << disc;  // along rims, which are a pixel wide
+  }
+}
+
+// Places, shifts and azimuths are those of exact rays.
+TEST_F(KerrDisc, IsSeenAlongExactRays) {
+  const Show s = show(", spin: 0.9", "outer_r: 20", "r: 15, latitude_deg: 30");
+  const auto& hole = std::get<SpinningHole>(s.spacetime.kind());
+  const KerrPlace at{hole.kerr, 15, std::numbers::pi / 3};
+  const KerrPlane plane(at, {s.disc->inner, s.disc->outer});
+  int seen = 0;
+  for (int k = 0; k < 400; ++k) {
+    const double delta = 0.05 + 0.0025 * k, eta = 2.4 * k;
+    const KerrPlane::Sight sight = plane.sight(delta, eta);
+    const auto passages = kerr_passages(at, {delta, eta}, KerrPlane::kOrders);
+    for (std::size_t n = 0; n < passages.size(); ++n) {
+      const KerrPassage& exact = passages[n];
+      if (exact.r < s.disc->inner || exact.r > s.disc->outer) continue;
+      ASSERT_TRUE(sight.crosses[n]) << delta << ' ' << eta;
+      const KerrPlane::Crossing& found = sight.at[n];
+      EXPECT_NEAR(found.w.value * exact.r, 1, 1e-5);
+      EXPECT_NEAR(std::remainder(found.angle.value - exact.phi, 2 * std::numbers::pi), 0, 1e-3);
+      EXPECT_NEAR(found.time.value, exact.null_time, 1e-3);
+      EXPECT_EQ(found.speed.value > 0, exact.outgoing);
+      EXPECT_NEAR(disc_shift(s.disc->orbits, {sight.energy, sight.momentum, sight.about_axis},
+                             exact.r, exact.outgoing),
+                  circling_shift(hole.kerr, exact, true).value(), 1e-10);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 150);
+}
+
+}  // namespace
+}  // namespace domefall
