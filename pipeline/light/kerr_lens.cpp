@@ -164,6 +164,16 @@ std::unique_ptr<const SkyPoints> KerrLens::points(SkyRegion sky,
   return one ? std::make_unique<KerrPoints>(*one, sine_, cosine_) : nullptr;
 }
 
+std::optional<GasView> KerrLens::gas_view() const {
+  const auto edge = std::make_shared<const KerrEdgeCurve>(charts_->at, KerrEdge::kSilhouette);
+  // A direction at an azimuth leads away from R on the side of (cos, sin), and at eta on the other one.
+  const KerrPlace& at = charts_->at;
+  return GasView{{SpinningHole{1, at.hole}, static_cast<double>(at.r), Tetrad::kRain},
+                 std::nullopt,
+                 at,
+                 [edge](double azimuth) { return edge->at(azimuth + pi).delta; }};
+}
+
 // From the nearest of a coarse grid of rays, by Newton's method on exact rays.
 V3d KerrLens::primary_image(const V3d& source) const {
   const V3d place(source.x * sine_ + source.y * cosine_, source.z,

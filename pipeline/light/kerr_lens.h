@@ -38,6 +38,7 @@ class KerrLens : public Lens {
   std::shared_ptr<const KerrPlane> kerr_plane(const KerrRings& rings) const override {
     return charts_->plane->plane(charts_->at, rings);
   }
+  std::optional<GasView> gas_view() const override;
 
  private:
   struct Seen;

@@ -70,7 +70,9 @@ LightPath light_path(const PlaneView& view, double alpha, double outer) {
   const Orbit orbit(view);
   const PlaneClock clock(view, 0);
   double psi = 0, time = 0, tortoise = clock.tortoise(view.at.r);
-  path.places.push_back({psi, w, slope, 1, 0, time});
+  path.rate = path.momentum;
+  path.about = {0, 0, -path.momentum};
+  path.places.push_back({psi, w, slope, V3d(1, 0, 0), V3d(0, 1, 0), time});
   while (psi < kMostTurn) {
     if (slope < 0 ? w < least : !view.straight && w > horizon) break;
     const double h = std::min(kMostStep / std::max(1.0, 3 * w),
@@ -90,7 +92,8 @@ LightPath light_path(const PlaneView& view, double alpha, double outer) {
     w = next_w, slope = next;
     if (!(w > 0)) w = 1e-9 * least;
     const SineCosine turned = sin_cos(psi);
-    path.places.push_back({psi, w, slope, turned.cosine, turned.sine, time});
+    path.places.push_back({psi, w, slope, V3d(turned.cosine, turned.sine, 0),
+                           V3d(-turned.sine, turned.cosine, 0), time});
   }
   if (path.places.size() == 1) path.places.clear();
   return path;

@@ -73,8 +73,9 @@ bool suits_cubic(const std::array<float, 8>& block, const std::array<const float
 GasPass::GasPass(const FrameScene& scene, const std::atomic<bool>* stop)
     : rays_(scene),
       exposure_(scene.exposure),
-      edge_(rays_.view().edge.value_or(0)),
-      log_rows_(!rays_.view().edge ? 0
+      view_(rays_.view()),
+      bent_(view_.edge || view_.edge_at),
+      log_rows_(!bent_             ? 0
                 : rays_.has_disc() ? kPerLogOfDisc
                                    : kPerLog),
       least_(kNearest * largest_pixel_angle(scene.projection())) {
@@ -85,8 +86,14 @@ GasPass::GasPass(const FrameScene& scene, const std::atomic<bool>* stop)
   columns_ = std::clamp(static_cast<int>(2 * pi / spacing), 64, 4096);
   blocks_ = rays_.has_pattern() ? kMostBlocks : 1;
   if (rays_.has_pattern()) pattern_ = scene.disc->pattern();
-  if (edge_ > 0) add_side(-1, edge_);
-  add_side(1, pi - edge_);
+  // An edge that is one for each azimuth is farthest somewhere.
+  double least_edge = pi, greatest_edge = 0;
+  for (int column = 0; column < columns_; ++column) {
+    const double edge = view_.edge_of(2 * pi * column / columns_);
+    least_edge = std::min(least_edge, edge), greatest_edge = std::max(greatest_edge, edge);
+  }
+  if (greatest_edge > 0) add_side(-1, greatest_edge);
+  add_side(1, pi - least_edge);
   std::size_t rows = 0;
   for (Side& side : sides_) side.first_row = rows, rows += static_cast<std::size_t>(side.rows);
   const std::size_t rays = rows * static_cast<std::size_t>(columns_);
@@ -127,11 +134,15 @@ double GasPass::d_of(double x) const {
 
 void GasPass::follow_row(const Side& side, int row) {
   const double d = std::max(d_of(side.last * row / (side.rows - 1)), least_ / 2);
-  const double alpha = edge_ + side.sign * d;
-  const LightPath path = rays_.path(alpha);
+  LightPath path;
   for (int column = 0; column < columns_; ++column) {
-    const SineCosine azimuth = sin_cos(2 * pi * column / columns_);
-    const V3d across(0, azimuth.cosine, azimuth.sine);
+    const double azimuth = 2 * pi * column / columns_;
+    double alpha = view_.edge_of(azimuth) + side.sign * d;
+    const SineCosine turned = sin_cos(azimuth);
+    V3d across(0, turned.cosine, turned.sine);
+    // Beyond R and -R the direction is one of the other side.
+    if (alpha < 0 || alpha > pi) alpha = alpha < 0 ? -alpha : 2 * pi - alpha, across = -across;
+    if (column == 0 || !rays_.paths_are_alike()) path = rays_.path(alpha, across);
     GasSight sight;
     if (!path.places.empty())
       sight = rays_.sight(path, across,
@@ -161,15 +172,15 @@ void GasPass::find_widths(const Side& side) {
     return Place{share, v[3] / share, v[4] / share, v[5] / share};
   };
   const GasOrbits& orbits = rays_.scene().disc->disc().orbits;
-  const auto alpha_at = [&](int row) {
-    return edge_ + side.sign * d_of(side.last * row / (side.rows - 1));
-  };
+  const auto d_at = [&](int row) { return d_of(side.last * row / (side.rows - 1)); };
   tbb::parallel_for(0, side.rows, [&](int row) {
     // Next to the axis rays are so close that their differences would be those of rounding.
     const int above = std::max(row - 1, 0), below = std::min(row + 1, side.rows - 1);
-    const double high = std::abs(alpha_at(below) - alpha_at(above)),
-                 wide = std::max(sin_cos(alpha_at(row)).sine, 0.5 / even_rows_) * 4 * pi / columns_;
-    for (int column = 0; column < columns_; ++column)
+    const double d = d_at(row), high = d_at(below) - d_at(above);
+    for (int column = 0; column < columns_; ++column) {
+      const double sine =
+          std::abs(sin_cos(view_.edge_of(2 * pi * column / columns_) + side.sign * d).sine);
+      const double wide = std::max(sine, 0.5 / even_rows_) * 4 * pi / columns_;
       for (std::size_t look = 1; look < blocks_; ++look) {
         const Place here = place(row, column, look);
         if (!(here.share > 0)) continue;
@@ -190,6 +201,7 @@ void GasPass::find_widths(const Side& side) {
         v[6] = static_cast<float>(here.share * std::sqrt(along));
         v[7] = static_cast<float>(here.share * std::sqrt(about));
       }
+    }
   });
 }
 
@@ -252,11 +264,12 @@ unsigned GasPass::add_values(const Side& side, double x, double azimuth, float w
 // Next to the edge rows are closer than pixels, which then are the mean of several places.
 unsigned GasPass::find_values(double alpha, double x, double azimuth, double width,
                               Values& values) const {
+  const double edge = view_.edge_of(azimuth);
   for (std::size_t n = 0; n < blocks_; ++n) values[n].fill(0);
-  const auto side_of = [this](double there) -> const Side& {
-    return there < edge_ ? sides_.front() : sides_.back();
+  const auto side_of = [this, edge](double there) -> const Side& {
+    return there < edge ? sides_.front() : sides_.back();
   };
-  const double off = std::max(std::abs(alpha - edge_) - width / 2, least_);
+  const double off = std::max(std::abs(alpha - edge) - width / 2, least_);
   const double rows = width * (log_rows_ / off + even_rows_);
   if (rows <= 1) return add_values(side_of(alpha), x, azimuth, 1, values);
   // The weights are a tent of a pixel and a half, about what a pixel's square has of a thin ring at any
@@ -269,7 +282,7 @@ unsigned GasPass::find_values(double alpha, double x, double azimuth, double wid
   unsigned lit = 0;
   for (int k = 0; k < parts; ++k) {
     const double there = alpha + width * place(k);
-    lit |= add_values(side_of(there), x_of(std::abs(there - edge_)), azimuth,
+    lit |= add_values(side_of(there), x_of(std::abs(there - edge)), azimuth,
                       static_cast<float>((kReach - std::abs(place(k))) / sum), values);
   }
   return lit;
@@ -306,8 +319,12 @@ void GasPass::draw_pixels(int row, int column, int count, float* rgb, float* lef
   const double now = pattern_ ? rays_.observer_time() : 0,
                inner = pattern_ ? rays_.scene().disc->disc().inner : 0;
   DirectionBatch::Column<double> alpha, x_coordinate, azimuth;
-  const GasGrid grid{rays_.counts_from_hole() ? -1.0 : 1.0, edge_, log_rows_, even_rows_, least_};
+  const GasGrid grid{rays_.counts_from_hole() ? -1.0 : 1.0, view_.edge.value_or(0), log_rows_,
+                     even_rows_, least_};
   find_polar(grid, frame, count, alpha.data(), x_coordinate.data(), azimuth.data());
+  if (view_.edge_at)
+    for (int k = 0; k < count; ++k)
+      x_coordinate[k] = x_of(std::abs(alpha[k] - view_.edge_of(azimuth[k])));
   for (int k = 0; k < count; ++k) {
     const double width = angle[k] * frame.scale[k];
     Values values;

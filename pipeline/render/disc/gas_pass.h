@@ -7,7 +7,7 @@
 //
 //     x = a ln(1 + d/e) + b d,    d = |alpha - edge|,
 //
-// so that they become ever closer towards it.  Pixels interpolate between these rays, by cubics whose
+// so that they become ever closer towards it.  About a hole that spins the edge is one for each azimuth.  Pixels interpolate between these rays, by cubics whose
 // slopes go on from cell to cell.  What a pattern makes of a disc's light is found at each pixel.
 #pragma once
 
@@ -63,7 +63,9 @@ class GasPass {
 
   GasRays rays_;
   const DiscPattern* pattern_ = nullptr;
-  double exposure_, edge_ = 0;
+  double exposure_;
+  const GasView& view_;
+  bool bent_;                            // light
   double log_rows_, even_rows_, least_;  // a, b, e
   int columns_;
   std::size_t blocks_;

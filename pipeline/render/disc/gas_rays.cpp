@@ -55,10 +55,14 @@ GasRays::GasRays(const FrameScene& scene)
       view_(scene.tracer.lens()->gas_view().value()) {
   if (const auto* hole = std::get_if<ChargedHole>(&view_.view.space.kind()))
     orbits_ = GasOrbits(*hole);
+  if (view_.spinning) orbits_ = GasOrbits(view_.spinning->hole, false);
   const ObserverState& observer = scene.state.observer;
   const auto in_lens = [&](const SkyDirection& axis) {
     return apply_transposed(observer.sky_from_tetrad, axis.v);
   };
+  if (const auto* hole = std::get_if<SpinningHole>(&observer.spacetime.kind()))
+    spin_ = Spin{KerrClock(hole->kerr), orbits_.spin(), 1, in_lens({axis_of(*hole)}),
+                 observer.null_time};
   const Effects& effects = scene.effects;
   const auto colour_of = [&](const auto& gas) {
     return GasColour(gas.temperature, gas.luminance, gas.r, effects.doppler_colour,
@@ -86,7 +90,28 @@ GasRays::GasRays(const FrameScene& scene)
   finest_ = std::min(finest_, disc_->height_at(disc_->inner));
   opacity_ = scene.state.settings.disc_opacity;
   gain_ = scene.state.settings.disc_gain;
-  if (has_pattern()) clock_.emplace(view_.view, observer.null_time);
+  if (spin_ && disc_->orbits.spin() < 0) spin_->sense = -1;
+  if (has_pattern() && !spin_) clock_.emplace(view_.view, observer.null_time);
+}
+
+LightPath GasRays::path(double alpha, const V3d& across) const {
+  if (!view_.spinning) return light_path(view_.view, alpha, outer_);
+  return kerr_light_path(*view_.spinning, alpha, std::atan2(-across.z, -across.y), outer_);
+}
+
+GasRays::Ray GasRays::ray_of(const LightPath& path, const V3d& across, double frequency) const {
+  const V3d beside(0, -across.z, across.y);  // R x across
+  const auto along = [&](const V3d& v) {
+    return spin_ ? v : V3d(v.x, v.dot(across), v.dot(beside));
+  };
+  return {path,
+          frequency,
+          along(disc_normal_),
+          along(halo_normal_),
+          along(jet_normal_),
+          along(node_),
+          along(quarter_),
+          spin_ ? spin_->axis : V3d(0, 0, 0)};
 }
 
 bool GasRays::counts_from_hole() const {
@@ -100,54 +125,68 @@ V3d GasRays::direction_of(double alpha, const V3d& across) const {
 
 // Returns into how many steps a part of a path is divided: none where no gas is.
 int GasRays::steps_between(const LightPath::Place& a, const LightPath::Place& b,
-                           const V3d& across) const {
-  const double length = b.psi - a.psi, cosine = (a.cosine + b.cosine) / 2,
-               sine = (a.sine + b.sine) / 2;
-  const auto latitude = [&](const V3d& normal) {
-    return std::abs(cosine * normal.x + sine * across.dot(normal));
-  };
+                           const Ray& ray) const {
+  const double length = (b.at - a.at).length();
+  const V3d at = (a.at + b.at) / 2;
+  const auto latitude = [&](const V3d& normal) { return std::abs(at.dot(normal)); };
   double longest = HUGE_VAL;
-  if (halo_) longest = longest_step(*halo_, latitude(halo_normal_), length);
-  if (jet_) longest = std::min(longest, longest_step(*jet_, latitude(jet_normal_), length));
+  if (halo_) longest = longest_step(*halo_, latitude(ray.halo), length);
+  if (jet_) longest = std::min(longest, longest_step(*jet_, latitude(ray.jet), length));
   // The sine of a latitude changes by no more than the angle.
   if (disc_ && std::min(a.w, b.w) < 1 / disc_->inner &&
-      latitude(disc_normal_) < kHeights * disc_->height + length / 2)
+      latitude(ray.disc) < kHeights * disc_->height + length / 2)
     longest = std::min(longest, disc_step_);
-  return static_cast<int>(std::ceil(length / longest));
+  // Where light moves along r, gas changes as fast by that.
+  const double onward = std::max(length, std::abs(b.w - a.w) / std::max(a.w, b.w));
+  return static_cast<int>(std::ceil((spin_ ? onward : b.psi - a.psi) / longest));
+}
+
+// Above the plane the circles of gas are smaller, and gas is slower against who rests.  Returns by what
+// its four-velocity is too long there.
+double GasRays::speed_at_latitude(double r, double s) const {
+  const GasOrbits& orbits = disc_->orbits;
+  const bool falls = r < orbits.last_stable();
+  if (!spin_ || falls) {
+    const double turning = falls ? orbits.plunge_momentum() / r
+                                 : r * orbits.circling(r) / std::sqrt(orbits.slowing_squared(r));
+    return std::sqrt(1 + s * s * turning * turning);
+  }
+  const double a = orbits.spin(), omega = orbits.circling(r), sine2 = (1 - s) * (1 + s);
+  const double near = (2 * r - orbits.charge_squared()) / (r * r + a * a * s * s),
+               dragged = 1 - a * omega * sine2;
+  const double square = 1 - omega * omega * sine2 * (r * r + a * a) - near * dragged * dragged;
+  return std::sqrt(square / orbits.slowing_squared(r));
 }
 
 GasRays::Layer GasRays::layer(const Ray& ray, const Step& step) const {
   const double energy = ray.path.energy, momentum = ray.path.momentum;
-  Layer layer{step.psi, step.time, {0, 0, 0}, 0, 0, 0};
+  Layer layer{step.psi, step.time, step.at, {0, 0, 0}, 0, 0, 0};
   // What a step along the ray is in the light's own measure, for whom light of frequency 1 goes 1 M.
-  const double way = step.length * step.r * step.r / momentum;
-  const auto latitude = [&](const V3d& normal) {
-    return step.cosine * normal.x + step.sine * ray.across.dot(normal);
-  };
-  // L_n = -L (R x across).n
-  const auto about = [&](const V3d& normal) {
-    return momentum * (ray.across.z * normal.y - ray.across.y * normal.z);
-  };
+  double sigma = step.r * step.r;
+  if (spin_) {
+    const double s = spin_->a * step.at.dot(ray.axis);
+    sigma += s * s;
+  }
+  const double way = step.length * sigma / ray.path.rate;
   const auto add_thin = [&](const auto& gas, const V3d& normal, const GasColour& colour) {
-    const GasPlace at{step.r, latitude(normal), step.outward};
+    const GasPlace at{step.r, step.at.dot(normal), step.outward};
     const double n = density(gas, orbits_, at);
     if (n < 1e-6) return;
-    const double sent = sent_frequency(gas, orbits_, {energy, momentum, about(normal)}, at);
+    const double sent =
+        sent_frequency(gas, orbits_, {energy, momentum, ray.path.about.dot(normal)}, at);
     layer.light = sum(layer.light, colour.light(ray.frequency / sent), n * sent * way);
   };
-  if (halo_) add_thin(*halo_, halo_normal_, *halo_colour_);
-  if (jet_) add_thin(*jet_, jet_normal_, *jet_colour_);
+  if (halo_) add_thin(*halo_, ray.halo, *halo_colour_);
+  if (jet_) add_thin(*jet_, ray.jet, *jet_colour_);
   if (!disc_ || step.r <= disc_->inner || step.r >= disc_->outer) return layer;
-  const double s = latitude(disc_normal_), height = disc_->height_at(step.r), off = s / height;
+  const double s = step.at.dot(ray.disc), height = disc_->height_at(step.r), off = s / height;
   if (std::abs(off) > kHeights) return layer;
-  const bool falls = step.r < orbits_.last_stable();
-  // r u^phi in the plane.  At a latitude its circle is smaller, and gas is slower against who rests.
-  const double turning =
-      falls ? orbits_.plunge_momentum() / step.r
-            : step.r * orbits_.circling(step.r) / std::sqrt(orbits_.slowing_squared(step.r));
-  const double sent =
-      disc_shift(orbits_, {energy, momentum, about(disc_normal_)}, step.r, falls && step.outward) /
-      std::sqrt(1 + s * s * turning * turning);
+  const GasOrbits& orbits = disc_->orbits;
+  const double sent = disc_shift(orbits, {energy, momentum, ray.path.about.dot(ray.disc)}, step.r,
+                                 step.r < orbits.last_stable() && step.outward) /
+                      speed_at_latitude(step.r, s);
+  // Light that a path leads to above the plane need not get to its circles in it.
+  if (!(sent > 0)) return layer;
   const double thickness = std::sqrt(2 * pi) * height * step.r;
   layer.depth = static_cast<float>(std::min(depth_across(*disc_, step.r), 1e6) / thickness *
                                    exponential(-off * off / 2) * sent * way);
@@ -160,7 +199,7 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
                         double until) const {
   // Nothing is seen behind so much gas.
   constexpr float kOpaque = 16;
-  const Ray ray{path, across, frequency};
+  const Ray ray = ray_of(path, across, frequency);
   thread_local std::vector<Layer> layers;
   layers.clear();
   const double least = 1 / outer_, horizon = 1 / orbits_.horizon();
@@ -170,7 +209,7 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
     if (a.psi >= until) break;
     // Where the path is only inside the horizon or beyond all gas, there is nothing.
     if ((a.w < least && b.w < least) || (a.w > horizon && b.w > horizon)) continue;
-    const int steps = steps_between(a, b, across);
+    const int steps = steps_between(a, b, ray);
     // Steps begin and end on the horizon itself, where gas may be opaque.
     const double crossed = part_at(a, b, horizon) * (b.psi - a.psi);
     const double from = a.psi + (a.w > horizon ? crossed : 0),
@@ -179,8 +218,7 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
       const double psi = from + way * (n + 0.5) / steps, part = (psi - a.psi) / (b.psi - a.psi);
       const double w = LightPath::inverse_radius(a, b, part);
       if (!(w > least && w < horizon)) continue;
-      const SineCosine turned = sin_cos(psi);
-      Layer one = layer(ray, {psi, way / steps, turned.cosine, turned.sine, 1 / w,
+      Layer one = layer(ray, {psi, way / steps, LightPath::direction(a, b, part), 1 / w,
                               a.time + part * (b.time - a.time), b.w > a.w});
       if (!(one.depth > 0 || one.light.r + one.light.g + one.light.b > 0)) continue;
       if (one.depth > 0) {
@@ -188,6 +226,7 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
         const double there = (one.psi - a.psi) / (b.psi - a.psi);
         one.r = static_cast<float>(1 / LightPath::inverse_radius(a, b, there));
         one.time = a.time + there * (b.time - a.time);
+        one.at = LightPath::direction(a, b, there);
       }
       layers.push_back(one);
       depth += one.depth;
@@ -201,18 +240,36 @@ void GasRays::add_look(const Ray& ray, const Layer& layer, const WorkingRgb& lig
                        GasLook& to) const {
   const std::array<double, 3> c{weight * light.r, weight * light.g, weight * light.b};
   for (std::size_t n = 0; n < 3; ++n) to.light[n] += static_cast<float>(c[n]);
-  const SineCosine at = sin_cos(layer.psi);
-  const V3d place = V3d(at.cosine, 0, 0) + ray.across * at.sine;
   const double share = c[0] + c[1] + c[2], radius = layer.r;
-  const double time = scene_.disc->disc().slow_light ? clock_->time_at(radius, layer.time)
-                                                     : clock_->observer_time();
+  const bool slow = scene_.disc->disc().slow_light;
+  double time = observer_time(), x = layer.at.dot(ray.node), y = layer.at.dot(ray.quarter);
+  if (!spin_) {
+    if (slow) time = clock_->time_at(radius, layer.time);
+  } else {
+    if (slow) time += layer.time - spin_->clock.tortoise(radius);
+    // From the angle of light that falls to that of Boyer and Lindquist.
+    const SineCosine twist = sin_cos(spin_->sense * spin_->clock.twist(radius));
+    const double turned = x * twist.cosine + y * twist.sine;
+    y = y * twist.cosine - x * twist.sine, x = turned;
+  }
   // Gas at another height has other filaments, since no pattern is the same all through the disc.
   constexpr double kOutwards = 2;
-  const double s = place.dot(disc_normal_), rounded = disc_->height / 2;
+  const double s = layer.at.dot(ray.disc), rounded = disc_->height / 2;
   const double shown = share * radius * (1 + kOutwards * std::sqrt(s * s + rounded * rounded));
-  to.x += static_cast<float>(shown * place.dot(node_));
-  to.y += static_cast<float>(shown * place.dot(quarter_));
-  to.time += static_cast<float>(share * (time - clock_->observer_time()));
+  to.x += static_cast<float>(shown * x);
+  to.y += static_cast<float>(shown * y);
+  to.time += static_cast<float>(share * (time - observer_time()));
+}
+
+// Returns where a ray crosses the disc's plane first.
+double GasRays::first_crossing(const Ray& ray) const {
+  const std::vector<LightPath::Place>& places = ray.path.places;
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    const double before = places[k - 1].at.dot(ray.disc), after = places[k].at.dot(ray.disc);
+    if ((before > 0) != (after > 0))
+      return places[k - 1].psi + (places[k].psi - places[k - 1].psi) * before / (before - after);
+  }
+  return HUGE_VAL;
 }
 
 // Lays layers behind each other, the nearest first.
@@ -230,10 +287,8 @@ GasSight GasRays::seen(const Ray& ray, const std::vector<Layer>& layers) const {
     light.resize(layers.size());
     scene_.disc->light(r, ratio, light);
   }
-  // Of the disc's normal along the ray, where the ray crosses its plane first.
-  const double up = std::abs(disc_normal_.x),
-               toward = ray.across.dot(disc_normal_) * (disc_normal_.x > 0 ? -1 : 1);
-  const double crossing = arc_tangent2(up, toward);
+  const double crossing = has_pattern() ? first_crossing(ray) : 0;
+  const double up = disc_ ? std::abs(ray.path.places.front().at.dot(ray.disc)) : 0;
   const double amid = disc_ ? falling(up / disc_->height, 1.5, 3) : 0;
   double left = 1;
   WorkingRgb plain{0, 0, 0};
@@ -247,7 +302,7 @@ GasSight GasRays::seen(const Ray& ray, const std::vector<Layer>& layers) const {
     const double weight =
         opacity_ * gain_ * left * (1 - kept) * surface_brightness_ratio(scene_.effects, l.ratio);
     left *= kept;
-    if (!clock_) {
+    if (!has_pattern()) {
       plain = sum(plain, light[k], weight);
       continue;
     }
@@ -273,7 +328,8 @@ GasSight GasRays::sight_before(const CameraDirection& n, double psi) const {
   const double beside = std::sqrt(at.y[0] * at.y[0] + at.z[0] * at.z[0]),
                alpha = arc_tangent2(beside, counts_from_hole() ? -at.x[0] : at.x[0]);
   const V3d across = beside > 0 ? V3d(0, at.y[0] / beside, at.z[0] / beside) : V3d(0, 1, 0);
-  return sight(path(alpha), across, at.frequency[0], psi);
+  const LightPath way = path(alpha, across);
+  return sight(way, across, at.frequency[0], spin_ ? psi * way.rate / std::abs(way.energy) : psi);
 }
 
 }  // namespace domefall

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/light/kerr_clock.h"
 #include "pipeline/light/light_path.h"
 #include "pipeline/light/plane_clock.h"
 #include "pipeline/render/scene/frame_scene.h"
@@ -51,18 +52,21 @@ class GasRays {
   const GasView& view() const { return view_; }
   // The sine of the smallest angle, as seen from the hole, across which gas changes.
   double finest() const { return finest_; }
-  LightPath path(double alpha) const { return light_path(view_.view, alpha, outer_); }
+  // Returns the path at alpha that leads away from R on the side of the unit vector `across` (along R,
+  // Theta and Phi, at right angles to R).
+  LightPath path(double alpha, const V3d& across) const;
+  // Without a spin it is the same for all sides.
+  bool paths_are_alike() const { return !view_.spinning; }
 
   // The time t from which those of looks are counted.
-  double observer_time() const { return clock_->observer_time(); }
+  double observer_time() const { return spin_ ? spin_->observer_time : clock_->observer_time(); }
 
-  // Adds up the gas on a path, up to psi, that leads away from the observer on the side of the unit
-  // vector `across` (along R, Theta and Phi, at right angles to R).  `frequency` is
-  // FrameRayBatch::frequency.
+  // Adds up the gas on a path, up to psi.  `frequency` is FrameRayBatch::frequency.
   GasSight sight(const LightPath& path, const V3d& across, double frequency,
                  double until = HUGE_VAL) const;
 
-  // Returns what is seen in direction n in front of a place whose light has swept psi.
+  // Returns what is seen in direction n in front of a place whose light has swept psi, or about a hole
+  // that spins |E| times Mino's time.
   GasSight sight_before(const CameraDirection& n, double psi) const;
 
   // Says whether alpha counts from -R, where the hole is, or from R.
@@ -71,16 +75,18 @@ class GasRays {
   V3d direction_of(double alpha, const V3d& across) const;
 
  private:
-  // A Ray is a path in the plane of R and `across`.
+  // A Ray is a path, with what is at right angles to the disc, the halo, the jet, and what the azimuths
+  // of the disc count from, along the axes of the path.
   struct Ray {
     const LightPath& path;
-    V3d across;
     double frequency;
+    V3d disc, halo, jet, node, quarter, axis;
   };
+  Ray ray_of(const LightPath& path, const V3d& across, double frequency) const;
   // A Step is a small part of a ray.
   struct Step {
     double psi, length;  // of its middle, and radians
-    double cosine, sine;
+    V3d at;
     double r, time;
     bool outward;
   };
@@ -88,14 +94,17 @@ class GasRays {
   // frequency observed to that sent, and optical depth.
   struct Layer {
     double psi, time;
+    V3d at;
     WorkingRgb light;
     float r, ratio, depth;
   };
-  int steps_between(const LightPath::Place& a, const LightPath::Place& b, const V3d& across) const;
+  int steps_between(const LightPath::Place& a, const LightPath::Place& b, const Ray& ray) const;
+  double speed_at_latitude(double r, double latitude_sine) const;
   Layer layer(const Ray& ray, const Step& step) const;
   void add_look(const Ray& ray, const Layer& layer, const WorkingRgb& light, double weight,
                 GasLook& to) const;
   GasSight seen(const Ray& ray, const std::vector<Layer>& layers) const;
+  double first_crossing(const Ray& ray) const;
 
   const FrameScene& scene_;
   const Halo* halo_;
@@ -106,7 +115,14 @@ class GasRays {
   V3d node_, quarter_;
   GasOrbits orbits_;
   std::optional<GasColour> halo_colour_, jet_colour_;
-  std::optional<PlaneClock> clock_;  // of a disc's pattern
+  std::optional<PlaneClock> clock_;  // of a disc's pattern, about a hole without spin
+  struct Spin {
+    KerrClock clock;
+    double a, sense;  // 1 of a disc that goes with the hole, else -1
+    V3d axis;
+    double observer_time;  // v
+  };
+  std::optional<Spin> spin_;
   double outer_ = 0, finest_ = 1, disc_step_ = 0, opacity_ = 1, gain_ = 1;
 };
 

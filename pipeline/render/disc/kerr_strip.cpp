@@ -27,6 +27,7 @@ constexpr double kReach = 0.75;
 DiscPass::KerrStrip::KerrStrip(const DiscPass& pass)
     : Strip(pass),
       plane_(*pass.kerr_plane_),
+      clock_(plane_.at().hole),
       low_(1 / disc_.outer),
       high_(1 / disc_.inner),
       sense_(disc_.orbits.spin() < 0 ? -1 : 1),
@@ -70,20 +71,17 @@ DiscPass::Gas DiscPass::KerrStrip::gas(const Piece& piece, const KerrPlane::Cros
 double DiscPass::KerrStrip::azimuth(double angle, double r) const {
   const SineCosine at = sin_cos(angle);
   const V3d place(at.cosine * sine_, at.cosine * cosine_, at.sine);
-  return std::atan2(place.dot(pass_.quarter_), place.dot(pass_.node_)) -
-         sense_ * static_cast<double>(plane_.at().hole.twist(r));
+  return std::atan2(place.dot(pass_.quarter_), place.dot(pass_.node_)) - sense_ * clock_.twist(r);
 }
 
 // Returns the place and the time of a sample for the pattern.  `part` is the range of w that the sample
 // covers, and `of_width` how much of the piece's width.
 PatternPlace DiscPass::KerrStrip::place(const Piece& piece, const KerrPlane::Crossing& at, double r,
                                         double part, double of_width) const {
-  const KerrHole& hole = plane_.at().hole;
   // Both are infinite on the horizon, where no light is seen.
   const double outside = std::max(r, disc_.orbits.horizon() * (1 + 1e-9));
   const double seen = pass_.scene_.state.observer.null_time;
-  const double time =
-      disc_.slow_light ? seen + at.time.value - static_cast<double>(hole.tortoise(outside)) : seen;
+  const double time = disc_.slow_light ? seen + at.time.value - clock_.tortoise(outside) : seen;
   // The gas turns on while the time of emission changes.
   const double turning = disc_.slow_light ? disc_.orbits.angular_velocity(r) : 0;
   const double along = (at.angle.by_delta - sense_ * turning * at.time.by_delta) * piece.high,

@@ -1,6 +1,7 @@
 // The Strip of a disc in the equator of a hole that spins (kerr_plane.h).
 #pragma once
 
+#include "pipeline/light/kerr_clock.h"
 #include "pipeline/render/disc/disc_strip.h"
 
 namespace domefall {
@@ -38,6 +39,7 @@ class DiscPass::KerrStrip : public DiscPass::Strip {
   double azimuth(double angle, double r) const;
 
   const KerrPlane& plane_;
+  KerrClock clock_;
   double low_, high_;  // 1/r of the outer rim, and of the inner one
   double sense_;       // 1 of gas that goes with the hole, else -1
   double sine_, cosine_;

@@ -94,7 +94,8 @@ DiscPass::Strip::Sighting DiscPass::SphereStrip::sighting(int k) const {
   const double turned = kSteps * crossings.azimuth_per[k];
   const double toward = pass_.plane_->across() * crossings.azimuth_cosine[k];
   const double up = pass_.plane_->up(), from_plane = std::sqrt(up * up + toward * toward);
-  if (turned > kMostBetween || turned * pass_.plane_->across() > kMostBetween * from_plane) return at;
+  if (turned > kMostBetween || turned * pass_.plane_->across() > kMostBetween * from_plane)
+    return at;
   const double p = crossings.label[k], per = crossings.label_per[k];
   const PlaneImages& images = pass_.plane_->images();
   double clearance = kFar;

@@ -56,7 +56,7 @@ struct GasScene {
     const double alpha =
         std::acos(std::clamp(rays.counts_from_hole() ? -at.x[0] : at.x[0], -1.0, 1.0));
     const V3d across = V3d(0, at.y[0], at.z[0]).normalized();
-    return rays.sight(rays.path(alpha), across, at.frequency[0]);
+    return rays.sight(rays.path(alpha, across), across, at.frequency[0]);
   }
 
   Show show;
