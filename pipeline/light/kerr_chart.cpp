@@ -1,9 +1,15 @@
 #include "pipeline/light/kerr_chart.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <numbers>
 
+#include "pipeline/base/simd/dispatch.h"
 #include "pipeline/light/lagrange.h"
 
 namespace domefall {
@@ -12,9 +18,40 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kRows = 144, kColumns = 192;
-constexpr int kPoints = 8;
+constexpr std::size_t kPoints = 8;
 // Where polynomials of six points differ so much from those of eight (radians), the chart is not used.
 constexpr double kRough = 3e-5;
+
+using Four = double __attribute__((vector_size(32)));
+
+// A CellNodes has Lagrange's nodes around a cell, and their weights.
+template <std::size_t kCount>
+struct CellNodes {
+  const std::array<double, 4>* nodes;
+  std::array<std::size_t, kCount> row, column;  // the nodes are at their sums
+  LagrangeWeights<kCount> down, on;
+};
+
+// Finds the value and its derivatives by row and by column.
+template <std::size_t kCount>
+[[gnu::always_inline]] inline void interpolate_loop(const CellNodes<kCount>& cell, Four* out) {
+  Four value{}, by_row{}, by_column{};
+  for (std::size_t k = 0; k < kCount; ++k) {
+    Four sum{}, slope{};
+    for (std::size_t m = 0; m < kCount; ++m) {
+      Four v;
+      std::memcpy(&v, &cell.nodes[cell.row[k] + cell.column[m]], sizeof v);
+      sum += v * cell.on.w[m];
+      slope += v * cell.on.slope[m];
+    }
+    value += sum * cell.down.w[k];
+    by_row += sum * cell.down.slope[k];
+    by_column += slope * cell.down.w[k];
+  }
+  out[0] = value, out[1] = by_row, out[2] = by_column;
+}
+template <std::size_t kCount>
+Dispatched<interpolate_loop<kCount>> interpolate;
 
 // The part of a derivative across a unit vector.
 V3d across(const V3d& v, const V3d& unit) { return v - unit * v.dot(unit); }
@@ -35,10 +72,12 @@ KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
     : grid_(at, sky, sky == KerrEdge::kSilhouette ? pi : 0, kRows, kColumns) {
   constexpr int kGuard = KerrGrid::kGuard;
   nodes_.resize(grid_.nodes());
-  for (int row = -kGuard; row <= kRows + kGuard; ++row)
-    for (int column = 0; column < kColumns; ++column)
-      nodes_[grid_.node(row, column)] =
-          trace_kerr_without_area(at, grid_.direction(row, column)).sky;
+  tbb::parallel_for(-kGuard, kRows + kGuard + 1, [&](int row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const V3d there = trace_kerr_without_area(at, grid_.direction(row, column)).sky;
+      nodes_[grid_.node(row, column)] = {there.x, there.y, there.z, 0};
+    }
+  });
   errors_.reserve(static_cast<std::size_t>(kRows * kColumns));
   for (int row = 0; row < kRows; ++row)
     for (int column = 0; column < kColumns; ++column)
@@ -47,23 +86,23 @@ KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
                                                .length()));
 }
 
-template <int kCount>
+template <std::size_t kCount>
 KerrChart::Value KerrChart::value_of(double row, double column) const {
   const double i = std::clamp(std::floor(row), 0.0, kRows - 1.0), j = std::floor(column);
-  const LagrangeWeights<kCount> down(row - i), on(column - j);
-  const int top = static_cast<int>(i) + 1 - kCount / 2, left = static_cast<int>(j) + 1 - kCount / 2;
-  Value value{V3d(0, 0, 0), V3d(0, 0, 0), V3d(0, 0, 0)};
-  for (int k = 0; k < kCount; ++k) {
-    V3d sum(0, 0, 0), slope(0, 0, 0);
-    for (int m = 0; m < kCount; ++m) {
-      const V3d& v = nodes_[grid_.node(top + k, left + m)];
-      sum += v * on.w[static_cast<std::size_t>(m)];
-      slope += v * on.slope[static_cast<std::size_t>(m)];
-    }
-    value.sky += sum * down.w[static_cast<std::size_t>(k)];
-    value.by_row += sum * down.slope[static_cast<std::size_t>(k)];
-    value.by_column += slope * down.w[static_cast<std::size_t>(k)];
+  const int top = static_cast<int>(i) + 1 - static_cast<int>(kCount) / 2,
+            left = static_cast<int>(j) + 1 - static_cast<int>(kCount) / 2;
+  CellNodes<kCount> cell{
+      nodes_.data(), {}, {}, LagrangeWeights<kCount>(row - i), LagrangeWeights<kCount>(column - j)};
+  std::size_t at = grid_.node(0, left) - grid_.node(0, 0);
+  for (std::size_t k = 0; k < kCount; ++k) {
+    cell.row[k] = grid_.node(top + static_cast<int>(k), 0);
+    cell.column[k] = at;
+    at = at + 1 == kColumns ? 0 : at + 1;
   }
+  std::array<Four, 3> found;
+  interpolate<kCount>(cell, found.data());
+  const auto vector = [](const Four& v) { return V3d(v[0], v[1], v[2]); };
+  Value value{vector(found[0]), vector(found[1]), vector(found[2])};
   value.sky.normalize();
   value.by_row = across(value.by_row, value.sky);
   value.by_column = across(value.by_column, value.sky);

@@ -3,6 +3,8 @@
 // (kerr_ray.h).  Between the nodes there are Lagrange's polynomials of eight.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "pipeline/light/kerr_grid.h"
@@ -52,12 +54,12 @@ class KerrChart {
   KerrEdge sky() const { return grid_.kind(); }
 
  private:
-  template <int kCount>
+  template <std::size_t kCount>
   Value value_of(double row, double column) const;
   Place exact(double delta, double eta, const Edge& edge) const;
 
   KerrGrid grid_;
-  std::vector<V3d> nodes_;
+  std::vector<std::array<double, 4>> nodes_;  // unit vectors and a 0
   std::vector<float> errors_;
 };
 

@@ -1,6 +1,7 @@
 #include "pipeline/light/kerr_plane.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,9 @@ std::shared_ptr<const KerrPlane> KerrPlaneKeeper::plane(const KerrPlace& at,
                                                         const KerrRings& rings) {
   const std::lock_guard lock(mutex_);
   if (!plane_ || rings_ != rings)
-    plane_ = std::make_shared<const KerrPlane>(at, rings), rings_ = rings;
+    // A thread that waits here for others must not take up work that waits for the mutex.
+    tbb::this_task_arena::isolate(
+        [&] { plane_ = std::make_shared<const KerrPlane>(at, rings), rings_ = rings; });
   return plane_;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace domefall {
 namespace {
@@ -19,35 +20,27 @@ ViewCurve reversed(const ViewCurve& curve) {
   return corners;
 }
 
-// Returns the distance of a direction from a polygon, as a chord.  It is positive on the left side.
-double chord_beyond(const std::vector<V3d>& corners, const V3d& n) {
-  double least = HUGE_VAL, side = 1;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const V3d &from = corners[k], way = corners[(k + 1) % corners.size()] - from;
-    const V3d off = n - from - way * std::clamp((n - from).dot(way) / way.length2(), 0.0, 1.0);
-    if (off.length2() >= least) continue;
-    least = off.length2();
-    side = from.cross(way).dot(n) < 0 ? -1 : 1;
-  }
-  return side * std::sqrt(least);
+BorderCurve border_curve(const ViewCurve& curve) {
+  if (const auto* c = std::get_if<ViewCircle>(&curve)) return *c;
+  return BorderPolygon(std::get<std::vector<V3d>>(curve));
 }
 
 // Returns how far a direction is beyond the border of a sky, at most.  The components of two
 // directions along an axis differ by no more than the angle between them, and so do chords.
-double beyond(const ViewCurve& curve, const V3d& n) {
+double beyond(const BorderCurve& curve, const V3d& n) {
   const auto* c = std::get_if<ViewCircle>(&curve);
-  return c ? n.dot(c->axis) - c->cosine : chord_beyond(std::get<std::vector<V3d>>(curve), n);
+  return c ? n.dot(c->axis) - c->cosine : std::get<BorderPolygon>(curve).chord_beyond(n);
 }
 
 // Returns the factor from that to an angle, next to the border.  A small step away from the axis of
 // a circle changes the cosine by the sine times the step.
-double angle_over_beyond(const ViewCurve& curve) {
+double angle_over_beyond(const BorderCurve& curve) {
   const auto* c = std::get_if<ViewCircle>(&curve);
   return c ? 1 / c->sine : 1;
 }
 
 // Returns the part of a pixel in the direction n that lies on the sky's side of its border.
-double part_within(const ViewCurve& curve, const CameraDirection& n, double pixel_angle) {
+double part_within(const BorderCurve& curve, const CameraDirection& n, double pixel_angle) {
   return std::clamp(0.5 - beyond(curve, n.v) * angle_over_beyond(curve) / pixel_angle, 0.0, 1.0);
 }
 
@@ -62,17 +55,56 @@ double radius_of(const ViewCurve& curve) {
 
 }  // namespace
 
+BorderPolygon::BorderPolygon(std::vector<V3d> corners) : corners_(std::move(corners)) {
+  for (std::size_t first = 0; first < corners_.size(); first += kPart) {
+    const std::size_t end = std::min(first + kPart, corners_.size());
+    Part part{V3d(0, 0, 0), 0};
+    for (std::size_t k = first; k <= end; ++k) part.middle += corner(k);
+    part.middle /= static_cast<double>(end - first + 1);
+    for (std::size_t k = first; k <= end; ++k)
+      part.radius = std::max(part.radius, (corner(k) - part.middle).length());
+    parts_.push_back(part);
+  }
+}
+
+// The nearest part is looked at first, and of the others those that may have something nearer.
+double BorderPolygon::chord_beyond(const V3d& n) const {
+  double least = HUGE_VAL, side = 1;
+  const auto look_at = [&](std::size_t part) {
+    const std::size_t end = std::min((part + 1) * kPart, corners_.size());
+    for (std::size_t k = part * kPart; k < end; ++k) {
+      const V3d &from = corner(k), way = corner(k + 1) - from;
+      const V3d off = n - from - way * std::clamp((n - from).dot(way) / way.length2(), 0.0, 1.0);
+      if (off.length2() >= least) continue;
+      least = off.length2();
+      side = from.cross(way).dot(n) < 0 ? -1 : 1;
+    }
+  };
+  const auto distance = [&](const Part& part) { return (n - part.middle).length2(); };
+  const auto nearest =
+      std::min_element(parts_.begin(), parts_.end(),
+                       [&](const Part& a, const Part& b) { return distance(a) < distance(b); });
+  look_at(static_cast<std::size_t>(nearest - parts_.begin()));
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const double reach = parts_[k].radius + std::sqrt(least);
+    if (parts_.begin() + static_cast<std::ptrdiff_t>(k) != nearest &&
+        distance(parts_[k]) < reach * reach)
+      look_at(k);
+  }
+  return side * std::sqrt(least);
+}
+
 SkyBorders::SkyBorders(const ViewTracer& tracer, const Projection& projection) {
   const double least = kLeastRadius * largest_pixel_angle(projection);
   for (const SkyBorder& border : tracer.borders()) {
-    curves_.push_back(border.sky_within ? reversed(border.curve) : border.curve);
+    curves_.push_back(border_curve(border.sky_within ? reversed(border.curve) : border.curve));
     skies_.push_back(border.sky);
     ends_.push_back(curves_.back());
     if (radius_of(border.curve) > least) continue;
     // The stars of a sky in a window of a few pixels end a little beyond it.
     const auto* window = border.sky_within ? std::get_if<ViewCircle>(&border.curve) : nullptr;
     if (window)
-      ends_.back() = reversed(ViewCircle{window->axis, std::cos(2 * least), std::sin(2 * least)});
+      ends_.back() = ViewCircle{-window->axis, -std::cos(2 * least), std::sin(2 * least)};
     else
       usable_ = false;
   }
@@ -82,7 +114,7 @@ SkyBorders::SkyBorders(const ViewTracer& tracer, const Projection& projection) {
 
 SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reach) const {
   bool dark = true;
-  for (const ViewCurve& curve : ends_) {
+  for (const BorderCurve& curve : ends_) {
     const double off = beyond(curve, n.v);
     if (off < -reach) return Sight::kSky;
     dark = dark && off > reach;
@@ -92,7 +124,7 @@ SkyBorders::Sight SkyBorders::sight_around(const CameraDirection& n, double reac
 
 double SkyBorders::part_in_skies(const CameraDirection& n, double pixel_angle) const {
   double part = 0;
-  for (const ViewCurve& curve : ends_) part += part_within(curve, n, pixel_angle);
+  for (const BorderCurve& curve : ends_) part += part_within(curve, n, pixel_angle);
   return std::min(part, 1.0);
 }
 

@@ -1,7 +1,9 @@
 // Finds where the skies end in the camera's view.  Blobs of stars must end there too.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "pipeline/render/rays/view_tracer.h"
@@ -13,6 +15,27 @@ namespace domefall {
 struct PixelBox {
   int first_column, last_column, first_row, last_row;
 };
+
+// A BorderPolygon is a ViewCurve of many corners.
+class BorderPolygon {
+ public:
+  explicit BorderPolygon(std::vector<V3d> corners);
+
+  // Returns the distance of a direction from it, as a chord.  It is positive on the left side.
+  double chord_beyond(const V3d& n) const;
+
+ private:
+  static constexpr std::size_t kPart = 64;  // so many sides have a ball around them
+  struct Part {
+    V3d middle;
+    double radius;
+  };
+  const V3d& corner(std::size_t k) const { return corners_[k == corners_.size() ? 0 : k]; }
+
+  std::vector<V3d> corners_;
+  std::vector<Part> parts_;
+};
+using BorderCurve = std::variant<ViewCircle, BorderPolygon>;
 
 // SkyBorders holds the borders of the skies as curves in the view.
 class SkyBorders {
@@ -41,9 +64,9 @@ class SkyBorders {
   void find_box(const Projection& projection);
 
   // The sky of each lies where n.axis < cosine, or outside the polygon.
-  std::vector<ViewCurve> curves_;
-  std::vector<SkyRegion> skies_;  // of each curve
-  std::vector<ViewCurve> ends_;   // where the stars of each end
+  std::vector<BorderCurve> curves_;
+  std::vector<SkyRegion> skies_;   // of each curve
+  std::vector<BorderCurve> ends_;  // where the stars of each end
   bool usable_ = true;
   std::optional<PixelBox> box_;
 };
