@@ -71,6 +71,12 @@ class Motion {
                     1e-3 * std::sqrt(carter + ae2));
   }
 
+  // Says whether light that moves inwards, back in time, gets from far away to w.
+  bool reaches(double w) const {
+    const double p = energy + c_ * w * w;
+    return p * p > carter * w * w * delta(w);
+  }
+
   double delta(double w) const { return 1 - 2 * w + squares_ * w * w; }  // over r^2
 
   // By how much the angle grows in all.
@@ -122,13 +128,16 @@ LightPath kerr_light_path(const KerrPlace& at, double delta, double eta, double 
   if (!(motion.energy > 0) ||
       (inside && !(motion.energy * (horizon * horizon + a * a) > a * motion.momentum)))
     return path;
+  const double least = 1 / outer;
+  if (motion.start.w < least && !(motion.start.speed > 0 && motion.reaches(least))) return path;
   path.momentum = std::sqrt(motion.carter);
   path.rate = motion.rate_of_psi();
   const double sine = std::sin(static_cast<double>(at.theta)),
                cosine = std::cos(static_cast<double>(at.theta));
   const V3d x(sine, cosine, 0), y(0, 0, 1), z(cosine, -sine, 0);
   path.about = z * motion.momentum;
-  const double least = 1 / outer;
+  constexpr std::size_t kManyPlaces = 160;
+  path.places.reserve(kManyPlaces);
   State state = motion.start;
   const KerrClock clock(hole);
   double psi = 0;

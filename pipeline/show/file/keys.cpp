@@ -286,7 +286,7 @@ constexpr std::string_view kRows = R"(
 | `file` | a picture: its columns are azimuths from where the gas rises through the plane of the observer's orbits, in its sense, its rows radii from `inner_r` at the bottom to `outer_r` at the top | required |
 | `at_m` | -1e9 to 1e9: the t at which it looks as painted; before and after the gas has carried it along | [0] |
 ## halo
-| `r` | 3 to 1e4: its density falls as exp(-(r/`r`)²/2) | [4] |
+| `r` | 1 to 1e4: its density falls as exp(-(r/`r`)²/2) | [4] |
 | `height` | 0.02 to 2: its density falls as exp(-(s/`height`)²/2) with the sine s of the latitude | [0.3] |
 | `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: of so many M of its densest gas as `r` says, to whoever moves with it | [2e-3] |
 | `t_k` | 500 to 1e9: the temperature whose colour and changes of colour its light has | grey |
