@@ -130,7 +130,8 @@ KerrChart::Place KerrChart::place(double delta, double eta, const Edge& edge) co
     const double quarter = eta + (end() > 0 ? -pi / 2 : pi / 2);
     const KerrGrid::Place there = grid_.place(delta, quarter, this->edge(quarter));
     const double row = std::min(there.row, kRows - 1e-9);
-    if (error(row, there.column) > kRough) return exact(delta, eta, edge);
+    // Where sky III is no larger than this, there may be none of it a quarter turn on.
+    if (!(row >= 0) || error(row, there.column) > kRough) return exact(delta, eta, edge);
     place.across = this->value(row, there.column).by_row * there.row_by_delta;
     return place;
   }

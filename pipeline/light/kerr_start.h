@@ -24,6 +24,7 @@ struct KerrPlace {
   long double delta() const { return hole.delta(r); }
   // Returns a^2 cos^2(theta).
   long double sigma() const;
+  bool operator==(const KerrPlace&) const = default;
 };
 
 // Skies of r = infinity and what is black: I, III and H.

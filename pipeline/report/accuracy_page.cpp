@@ -72,13 +72,15 @@ std::string class_text(const std::vector<RayErrorRow>& rows, const RayClass& of)
                       fmt::format("{} of {}", r.undecided, r.rays), amount(r.ns_per_ray),
                       r.build_us > 0 ? amount(r.build_us) : "");
   });
+  const bool spin = of.kind == RayKind::kSpin;
   return fmt::format(
       "### Seen from {3}, {1}\n\n"
-      "| method | setting | φ, 99 of 100 | φ, worst | sky, 99 of 100 | sky, worst | undecided | "
+      "| method | setting | {4}, 99 of 100 | {4}, worst | sky, 99 of 100 | sky, worst | undecided "
+      "| "
       "ns per ray | building, µs |\n|---|---|---|---|---|---|---|---|---|\n{2}\n"
-      "![error of the azimuth against time](plots/rays_{0}_{1}.svg)\n"
+      "![error of the {5} against time](plots/rays_{0}_{1}.svg)\n"
       "![error on the sky against time](plots/rays_{0}_{1}_sky.svg)\n\n",
-      of.region, of.name, table, place_of(of));
+      of.region, of.name, table, place_of(of), spin ? "place" : "φ", spin ? "place" : "azimuth");
 }
 
 // Returns the quickest way to an error on the sky that 99 of 100 rays of a class keep while none is

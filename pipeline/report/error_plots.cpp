@@ -119,8 +119,10 @@ std::vector<NamedPlot> error_plots(const Report& report) {
   std::vector<NamedPlot> plots;
   for (const RayClass& of : ray_classes()) {
     const std::string name = std::string("rays_") + of.region + "_" + of.name;
-    plots.push_back({name, ray_plot(report.rays, of, "error of φ, 99 of 100 rays below",
-                                    &RayErrorRow::phi_99)});
+    const char* what = of.kind == RayKind::kSpin
+                           ? "error of the place, radians, 99 of 100 rays below"
+                           : "error of φ, 99 of 100 rays below";
+    plots.push_back({name, ray_plot(report.rays, of, what, &RayErrorRow::phi_99)});
     plots.push_back(
         {name + "_sky", ray_plot(report.rays, of, "error on the sky, radians, 99 of 100 rays below",
                                  &RayErrorRow::sky_99)});

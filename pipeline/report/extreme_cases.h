@@ -28,6 +28,8 @@ struct ExtremeCase {
 std::vector<ExtremeCase> extreme_rays();
 // Returns such cases near charges and in wormholes.
 std::vector<ExtremeCase> extreme_swept();
+// Returns such cases about spins, by their exact rays.
+std::vector<ExtremeCase> extreme_spins();
 // Returns the cases of frames of 96 pixels with every sky and stars, whose pixels must be finite, or
 // in which the light or the places are known.  They take about 3 s.  measure() throws InputError if
 // the shipped catalogue cannot be read.

@@ -48,9 +48,13 @@ class FrameTally {
   // Renders frame 0 of the show.  If the renderer throws, as it does for a pixel that is not
   // finite, the frame counts as one bad value.
   void add(const Show& show) {
+    Renderer renderer(show, 0);
+    add(renderer, frame_state(show, 0));
+  }
+  void add(Renderer& renderer, const FrameState& state) {
     ++frames_;
     try {
-      const HalfFrame frame = Renderer(show, 0).render(frame_state(show, 0));
+      const HalfFrame frame = renderer.render(state);
       // The renderer refuses light that is not finite, which is counted below, and stores any other
       // light beyond the largest half, 65504, as that.  So a value here is bad only if the renderer
       // breaks one of these promises.
@@ -100,6 +104,24 @@ ExtremeResult lorentz_factor_of_a_million() {
         }
   return frames.result(
       "The sky gathers in a point ahead; of the grid's blackbodies the visible light fades there");
+}
+
+// One renderer keeps the charts of each place.
+ExtremeResult lorentz_factor_about_a_spin() {
+  FrameTally frames;
+  const KerrHole hole{0.9L};
+  for (const double r : {10.0, 1.5}) {
+    Show show = extreme_show(KerrCircling{hole, r, 1.2, dragged_velocity(hole, r, 1.2)},
+                             Domemaster{kExtremeSize / 3}, EulerAngles{});
+    show.spacetime = SpinningHole{1, hole};
+    Renderer renderer(show, 0);
+    for (const V3d& way : {V3d(1, 0, 0), V3d(-1, 0, 0), V3d(0, 0.6, 0.8), V3d(0.5, -0.5, -0.7)}) {
+      FrameState state = frame_state(show, 0);
+      state.observer.celerity = Celerity<ReferenceTetrad>(way.normalized() * 1e6);
+      frames.add(renderer, state);
+    }
+  }
+  return frames.result("As without a spin");
 }
 
 // The sky has a radius of 1.84 sqrt(r - 2) radians (at_rest_above_the_horizon()), 1.8e-6 and 1.8e-3
@@ -322,6 +344,8 @@ std::vector<ExtremeCase> extreme_frames() {
   return {
       {"LorentzFactorOfAMillion", "gamma = 1e6 in 26 directions, at four places in I, II and IV",
        bad, 0, lorentz_factor_of_a_million},
+      {"LorentzFactorAboutASpin", "gamma = 1e6 in 4 directions, a = 0.9, r = 10 and 1.5", bad, 0,
+       lorentz_factor_about_a_spin},
       {"FramesOfAStaticObserver", "static at r = 2 + 1e-12 and 2 + 1e-6", bad, 0, static_frame},
       {"FramesAcrossTheHorizon", "r = 2(1 ± 1e-15), 2, 2 - 1e-9", bad, 0,
        [] {

@@ -7,6 +7,8 @@
 
 #include "pipeline/base/stop_watch.h"
 #include "pipeline/light/charged_lens.h"
+#include "pipeline/light/kerr_chart.h"
+#include "pipeline/light/kerr_ray.h"
 #include "pipeline/light/wormhole_lens.h"
 #include "pipeline/render/rays/view_tracer.h"
 
@@ -57,7 +59,7 @@ struct Errors {
       ++undecided;
       return;
     }
-    const double off = std::abs(followed.phi - truth.phi);
+    const double off = std::abs(followed.phi - truth.phi) + (followed.place - truth.place).length();
     phi.push_back(off / std::max(1.0, truth.phi));
     sky.push_back(off / std::abs(truth.slope));  // d phi/d delta turns phi into delta
   }
@@ -173,6 +175,43 @@ FollowedRay by_light_steps(const AnyRay& ray, FallMethod method, double toleranc
   return step_charged_ray(std::get<ChargedRequest>(ray), method, tolerance);
 }
 
+// ---- a spin ----
+
+FollowedRay by_exact_spin(const AnyRay& of, double) {
+  const auto& ray = std::get<SpinRequest>(of);
+  const TracedKerr traced = trace_kerr(ray.at, ray.direction);
+  if (traced.origin == KerrOrigin::kPastHorizon) return {std::nullopt, 0};
+  return {traced.origin == KerrOrigin::kOwn ? SkyRegion::kI : SkyRegion::kIII, 0, traced.sky};
+}
+
+// Frames know a direction by its angles alone, and its distance from an edge by their difference.
+FollowedRay by_chart(const AnyRay& of, double) {
+  const auto& ray = std::get<SpinRequest>(of);
+  thread_local std::vector<KerrChart> kept;
+  if (kept.empty() || kept[0].at() != ray.at) {
+    kept.clear();
+    kept.emplace_back(ray.at, KerrEdge::kSilhouette);
+    if (ray.at.delta() < 0) kept.emplace_back(ray.at, KerrEdge::kRegionThree);
+  }
+  const auto delta = static_cast<double>(ray.direction.delta);
+  const auto eta = static_cast<double>(ray.direction.eta);
+  for (const KerrChart& chart : kept) {
+    const bool own = chart.sky() == KerrEdge::kSilhouette;
+    const KerrChart::Edge edge = chart.edge(eta);
+    if (own ? delta > edge.delta : delta < edge.delta)
+      return {own ? SkyRegion::kI : SkyRegion::kIII, 0, chart.place(delta, eta, edge).sky};
+  }
+  return {std::nullopt, 0};
+}
+
+FollowedRay by_mino_steps(const AnyRay& ray, FallMethod method, double tolerance) {
+  return step_ray_over_mino_time(std::get<SpinRequest>(ray), method, tolerance);
+}
+
+FollowedRay by_kerr_schild_steps(const AnyRay& ray, FallMethod method, double tolerance) {
+  return step_kerr_schild_ray(std::get<SpinRequest>(ray), method, tolerance);
+}
+
 // Returns the bits of the tables to compare.  The error falls with the eighth power of the
 // intervals' width (octave_curve.h), so each bit divides it by up to 256.  Two bits beyond the
 // default are enough to show where rounding takes over.
@@ -276,10 +315,13 @@ RayErrorRow measure_class(const RayClass& of, const std::vector<RayGroup>& group
 }
 
 std::vector<RayErrorRow> measure_rays(bool quick) {
-  // The 24 radii have 960 rays in each class, of which 9 may exceed the error of 99 of 100.
-  const int radii = quick ? 6 : 24, per_radius = quick ? 8 : 40, repeats = quick ? 1 : 3;
   std::vector<RayErrorRow> rows;
   for (const RayClass& of : ray_classes()) {
+    // About a spin the truth of a ray takes 20 ms, and the chart of a place half a second.
+    const bool few = of.kind == RayKind::kSpin;
+    const int radii = few && quick ? 2 : quick ? 6 : 24;
+    // Of 960 rays in a class 9 may exceed the error of 99 of 100.
+    const int per_radius = quick ? 8 : few ? 20 : 40, repeats = quick || few ? 1 : 3;
     const std::vector<RayGroup> groups = sample_rays(of, radii, per_radius);
     for (const RayMethod& method : compared_methods(of.kind, quick))
       for (const double setting : method.settings)
@@ -289,11 +331,18 @@ std::vector<RayErrorRow> measure_rays(bool quick) {
 }
 
 std::vector<RayMethod> compared_methods(RayKind kind, bool quick) {
-  const bool hole = kind == RayKind::kHole;
-  std::vector<RayMethod> methods{
-      {"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits, true,
-       hole ? by_table : by_zone_table},
-      {"exact", "", {0}, 0, false, hole ? by_integral : by_swept_integral}};
+  const bool hole = kind == RayKind::kHole, spin = kind == RayKind::kSpin;
+  std::vector<RayMethod> methods{{"table", "bits", table_bits(quick), OctaveCurve::kPerOctaveBits,
+                                  true, hole ? by_table : by_zone_table},
+                                 {"exact",
+                                  "",
+                                  {0},
+                                  0,
+                                  false,
+                                  hole   ? by_integral
+                                  : spin ? by_exact_spin
+                                         : by_swept_integral}};
+  if (spin) methods[0] = {"chart", "", {0}, 0, true, by_chart};
   const auto add = [&](std::string_view name, const auto& steps, auto method) {
     methods.push_back(
         {std::string(name), "tolerance", tolerances(quick), kDefaultTolerance, false,
@@ -302,6 +351,13 @@ std::vector<RayMethod> compared_methods(RayKind kind, bool quick) {
   if (hole) {
     for (const auto& [name, method] : kTraceMethods)
       if (is_integrator(method)) add(name, by_steps, method);
+    return methods;
+  }
+  if (spin) {
+    add("mino-dopri5", by_mino_steps, FallMethod::kDopri5);
+    add("mino-rkf78", by_mino_steps, FallMethod::kFehlberg78);
+    add("kerr-schild-dopri5", by_kerr_schild_steps, FallMethod::kDopri5);
+    add("kerr-schild-rkf78", by_kerr_schild_steps, FallMethod::kFehlberg78);
     return methods;
   }
   const std::string of = kind == RayKind::kCharge ? "binet-" : "";

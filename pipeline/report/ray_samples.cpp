@@ -7,6 +7,8 @@
 #include <random>
 #include <string_view>
 
+#include "pipeline/light/kerr_ray.h"
+
 namespace domefall {
 namespace {
 
@@ -42,6 +44,10 @@ constexpr std::array kClasses{
     RayClass{RayKind::kWormhole, "ellis", Difficulty::kEdge, "edge", 1e-3, 1e3},
     RayClass{RayKind::kWormhole, "dngr", Difficulty::kOrdinary, "ordinary", 1e-3, 1e3},
     RayClass{RayKind::kWormhole, "dngr", Difficulty::kEdge, "edge", 1e-3, 1e3},
+    RayClass{RayKind::kSpin, "spin_I", Difficulty::kOrdinary, "ordinary", 0.025, 50},
+    RayClass{RayKind::kSpin, "spin_I", Difficulty::kEdge, "edge", 0.025, 50},
+    RayClass{RayKind::kSpin, "spin_II", Difficulty::kOrdinary, "ordinary", 0.02, 0.98},
+    RayClass{RayKind::kSpin, "spin_II", Difficulty::kEdge, "edge", 0.02, 0.98},
 };
 
 std::vector<TraceObserver> observers_in(std::string_view region) {
@@ -168,14 +174,19 @@ SampleRay with_swept_truth(const AnyRay& ray, double off) {
           static_cast<double>((swept_at(ray, delta + h).azimuth - truth.azimuth) / h)};
 }
 
+// Returns how far a ray is from the edge of a sky, whose other end is at `most`.
+double random_offset(const RayClass& of, double most, Dice& dice) {
+  return of.difficulty == Difficulty::kEdge
+             ? dice.even_log(kLeastOffset, std::min(kMostOffset, most / 2))
+             : dice.even(0, most);
+}
+
 // Returns a random ray from one of the skies of an observer near a charge.
 SampleRay throw_charged_ray(const RayClass& of, const ChargedHole& hole, double r, Dice& dice) {
   const bool third = of.region == std::string_view("charge_II") && dice.heads();
   ChargedRequest request{hole, hole.at(r), 0, third ? Critical::kSecond : Critical::kFirst, 0};
   const auto edge = static_cast<double>(exact_delta(request));
-  const double off = of.difficulty == Difficulty::kEdge
-                         ? dice.even_log(kLeastOffset, kMostOffset)
-                         : dice.even(0, third ? edge : std::numbers::pi - edge);
+  const double off = random_offset(of, third ? edge : std::numbers::pi - edge, dice);
   request.offset = third ? -off : off;
   request.delta = edge + request.offset;
   if (of.difficulty == Difficulty::kOrdinary) request.edge.reset();
@@ -192,12 +203,73 @@ SampleRay throw_wormhole_ray(const RayClass& of, const Wormhole& wormhole, doubl
   return with_swept_truth(request, request.offset);
 }
 
+SpinView spin_view(const SpinRequest& ray) {
+  const KerrHole& hole = ray.at.hole;
+  SpinView view{Real50(hole.spin) + hole.spin_rest,
+                hole.charge,
+                ray.at.r,
+                ray.at.theta,
+                ray.direction.delta,
+                ray.direction.eta};
+  if (ray.direction.edge) {
+    const CriticalRay near = critical_ray(ray.at, ray.direction.eta, *ray.direction.edge);
+    view.delta = near.delta;
+    view.delta = spin_edge(view, near.x) + ray.direction.offset;
+  }
+  return view;
+}
+
+V3d rounded(const std::array<Real50, 3>& v) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+// The slope, by which errors are only scaled, is that of the exact ray.
+SampleRay with_spin_truth(const SpinRequest& ray) {
+  const SpinTruth truth = reference_spin_ray(spin_view(ray));
+  const TracedKerr traced = trace_kerr(ray.at, ray.direction);
+  const V3d &u = traced.by_delta, &v = traced.across;
+  const double sum = u.dot(u) + v.dot(v), apart = u.dot(u) - v.dot(v);
+  const double most = std::sqrt((sum + std::hypot(apart, 2 * u.dot(v))) / 2);
+  return {ray, truth.sky == ReferenceSky::kOwn ? SkyRegion::kI : SkyRegion::kIII, 0, most,
+          rounded(truth.place)};
+}
+
+// Returns a random ray from one of the skies of an observer about a spin.
+SampleRay throw_spin_ray(const RayClass& of, const KerrPlace& at, Dice& dice) {
+  const bool third = at.delta() < 0 && dice.heads();
+  SpinRequest ray{at, {}};
+  KerrDirection& to = ray.direction;
+  to.edge = third ? KerrEdge::kRegionThree : KerrEdge::kSilhouette;
+  to.eta = dice.even(0, 2 * std::numbers::pi);
+  const auto edge = static_cast<double>(critical_ray(at, to.eta, *to.edge).delta);
+  const double off = random_offset(of, third ? edge : std::numbers::pi - edge, dice);
+  to.offset = third ? -off : off;
+  to.delta = edge + to.offset;
+  return with_spin_truth(ray);
+}
+
+KerrPlace random_place(const RayClass& of, std::size_t group, Dice& dice) {
+  const double spin = 1 - dice.even_log(1e-6, 0.95), most = std::sqrt((1 - spin) * (1 + spin));
+  const double charge = most * dice.even(0, 0.9);
+  const KerrHole hole{spin, group % 2 == 0 ? 0 : charge};
+  const auto out = static_cast<double>(hole.horizon());
+  const auto in = static_cast<double>(hole.inner_horizon());
+  const double r = of.region == std::string_view("spin_I")
+                       ? out * (1 + dice.even_log(of.r_least, of.r_most))
+                       : in + (out - in) * dice.even(of.r_least, of.r_most);
+  return {hole, r, std::acos(dice.even(-1, 1))};
+}
+
 RayGroup throw_group(const RayClass& of, std::size_t group, int rays, Dice& dice) {
   RayGroup thrown;
   const auto repeat = [&](const auto& ray) {
     for (int k = 0; k < rays; ++k) thrown.push_back(ray());
     return thrown;
   };
+  if (of.kind == RayKind::kSpin) {
+    const KerrPlace at = random_place(of, group, dice);
+    return repeat([&] { return throw_spin_ray(of, at, dice); });
+  }
   if (of.kind == RayKind::kCharge) {
     const ChargedHole hole(1, 1 - dice.even_log(1e-12, 0.9));
     const double out = hole.horizon(), in = hole.inner_horizon();
@@ -226,8 +298,11 @@ std::span<const RayClass> ray_classes() { return kClasses; }
 
 std::string place_of(const RayClass& of) {
   const std::string region = of.region;
-  if (of.kind == RayKind::kCharge)
-    return "region " + region.substr(region.find('_') + 1) + " near a charge";
+  const auto near = [&](const char* what) {
+    return "region " + region.substr(region.find('_') + 1) + what;
+  };
+  if (of.kind == RayKind::kCharge) return near(" near a charge");
+  if (of.kind == RayKind::kSpin) return near(" about a spin");
   return (of.kind == RayKind::kHole ? "region " : "a wormhole of the profile ") + region;
 }
 
@@ -241,6 +316,8 @@ std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius)
     groups.push_back(throw_group(of, static_cast<std::size_t>(g), per_radius, dice));
   return groups;
 }
+
+SpinTruth spin_truth(const SpinRequest& ray) { return reference_spin_ray(spin_view(ray)); }
 
 SweptAzimuth swept_truth(const AnyRay& ray) { return swept_at(ray, exact_delta(ray)); }
 

@@ -1,5 +1,5 @@
 // The report measures with random rays, each of which has its truth from reference_ray() or, near a
-// charge and in a wormhole, from reference_swept.h.  They are classed by where the observer is and by a
+// charge and in a wormhole, from reference_swept.h, and about a spin from reference_spin.h.  They are classed by where the observer is and by a
 // kind of difficulty.
 #pragma once
 
@@ -11,7 +11,9 @@
 #include "pipeline/light/traced_ray.h"
 #include "pipeline/light/traced_wormhole.h"
 #include "pipeline/report/reference/reference_ray.h"
+#include "pipeline/report/reference/reference_spin.h"
 #include "pipeline/report/reference/reference_swept.h"
+#include "pipeline/report/stepped_light.h"
 
 namespace domefall {
 
@@ -29,14 +31,15 @@ enum class Difficulty {
 };
 
 // What the rays go around.
-enum class RayKind { kHole, kCharge, kWormhole };
+enum class RayKind { kHole, kCharge, kWormhole, kSpin };
 
 struct RayClass {
   RayKind kind;
-  const char* region;  // of the observer: I, II, IV, charge_I, charge_II; or a profile: ellis, dngr
+  // Of the observer: I, II, IV, charge_I, charge_II, spin_I, spin_II; or a profile: ellis, dngr.
+  const char* region;
   Difficulty difficulty;
   const char* name;  // of the difficulty
-  // Of r or, in a wormhole, of l.  Near a charge it is the distance from the outer horizon over its
+  // Of r or, in a wormhole, of l.  Near a charge and about a spin it is the distance from the outer horizon over its
   // r, or between the horizons the part of the way from the inner one.
   double r_least, r_most;
 };
@@ -44,15 +47,18 @@ std::span<const RayClass> ray_classes();
 // Returns "region II near a charge" and the like.
 std::string place_of(const RayClass& of);
 
-using AnyRay = std::variant<RayRequest, ChargedRequest, WormholeRequest>;
+using AnyRay = std::variant<RayRequest, ChargedRequest, WormholeRequest, SpinRequest>;
 
 // Returns the truth of a ray near a charge or in a wormhole, for the very numbers of the request.
 SweptAzimuth swept_truth(const AnyRay& ray);
+SpinTruth spin_truth(const SpinRequest& ray);
 
 struct SampleRay {
   AnyRay request;
   SkyRegion origin;
   double phi, slope;  // the truth, rounded to double
+  // About a spin: the place on the sky, and as slope the most that it moves by an angle of view.
+  V3d place{0, 0, 0};
 };
 
 // A RayGroup holds rays of one observer at one radius, as a frame does.
@@ -61,7 +67,9 @@ using RayGroup = std::vector<SampleRay>;
 // Returns the same rays whenever and wherever it is called.  ln r is distributed evenly, and so is
 // delta unless Difficulty says otherwise.  Offsets from an edge lie on both sides, and their
 // logarithms are distributed evenly.  Near a charge, of which ln(1 - q) is distributed evenly from 1e-12
-// on, only rays from a sky count.  The widths and lengths of throats lie between 1e-2 and 1e2 radii.
+// on, only rays from a sky count.  The widths and lengths of throats lie between 1e-2 and 1e2 radii.  Of
+// spins ln(1 - a) is distributed evenly from 1e-6 on, every other hole is charged, and observers and
+// eta are anywhere about it.
 std::vector<RayGroup> sample_rays(const RayClass& of, int radii, int per_radius);
 
 }  // namespace domefall

@@ -60,7 +60,7 @@ Report measure_report(bool quick, const std::function<void(const std::string&)>&
 std::string extreme_table() {
   std::string table =
       "| case | tried | what happens | worst | of | bound |\n|---|---|---|---|---|---|\n";
-  for (const auto& list : {extreme_rays(), extreme_swept(), extreme_frames()})
+  for (const auto& list : {extreme_rays(), extreme_swept(), extreme_spins(), extreme_frames()})
     for (const ExtremeCase& c : list) {
       // The tests call the same function, so they and the page cannot tell different things.
       const ExtremeResult result = c.measure();

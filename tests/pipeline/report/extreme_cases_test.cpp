@@ -24,6 +24,7 @@ std::string case_name(const testing::TestParamInfo<ExtremeCase>& info) { return 
 
 INSTANTIATE_TEST_SUITE_P(Rays, ExtremeCases, testing::ValuesIn(extreme_rays()), case_name);
 INSTANTIATE_TEST_SUITE_P(Swept, ExtremeCases, testing::ValuesIn(extreme_swept()), case_name);
+INSTANTIATE_TEST_SUITE_P(Spins, ExtremeCases, testing::ValuesIn(extreme_spins()), case_name);
 INSTANTIATE_TEST_SUITE_P(Frames, ExtremeCases, testing::ValuesIn(extreme_frames()), case_name);
 
 }  // namespace

@@ -24,24 +24,32 @@ TEST(RaySamples, StayInTheirRegionAndHaveATruth) {
   for (const RayClass& of : ray_classes()) {
     SCOPED_TRACE(std::string(of.region) + " " + of.name);
     std::set<SkyRegion> origins;
-    for (const RayGroup& group : sample_rays(of, 6, 8))
+    const bool spin = of.kind == RayKind::kSpin;
+    for (const RayGroup& group : sample_rays(of, spin ? 2 : 6, spin ? 6 : 8))
       for (const SampleRay& ray : group) {
         if (const auto* request = std::get_if<RayRequest>(&ray.request)) {
           EXPECT_GE(request->at.r, of.r_least);
           EXPECT_LE(request->at.r, of.r_most);
           EXPECT_EQ(of.region == std::string("I"), request->at.above_horizon > 0);
         }
-        const double delta =
-            std::visit([](const auto& q) { return static_cast<double>(q.delta); }, ray.request);
+        const auto delta = static_cast<double>(std::visit(
+            [](const auto& q) -> long double {
+              if constexpr (requires { q.direction; })
+                return q.direction.delta;
+              else
+                return q.delta;
+            },
+            ray.request));
         EXPECT_GE(delta, 0);
         EXPECT_LE(delta, std::numbers::pi);
-        EXPECT_TRUE(std::isfinite(ray.phi) && ray.phi > 0);
+        EXPECT_TRUE(std::isfinite(ray.phi) && (spin || ray.phi > 0));
+        EXPECT_NEAR(ray.place.length(), spin ? 1 : 0, 1e-15);
         EXPECT_TRUE(std::isfinite(ray.slope) && ray.slope != 0);
         origins.insert(ray.origin);
       }
-    // Rays of region IV have one origin, and so have those that count outside a charged hole.
+    // Rays of region IV have one origin, and so have those that count outside other holes.
     const std::string region = of.region;
-    EXPECT_EQ(origins.size() > 1, region != "IV" && region != "charge_I");
+    EXPECT_EQ(origins.size() > 1, region != "IV" && region != "charge_I" && region != "spin_I");
   }
 }
 
@@ -49,7 +57,7 @@ TEST(RaySamples, StayInTheirRegionAndHaveATruth) {
 TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
   for (const RayErrorRow& row : measure_rays(true)) {
     SCOPED_TRACE(row.region + " " + row.difficulty + " " + row.method);
-    EXPECT_GE(row.rays, 48);
+    EXPECT_GE(row.rays, 16);
     EXPECT_LE(row.phi_99, row.phi_worst);
     EXPECT_LE(row.sky_99, row.sky_worst);
     EXPECT_GT(row.ns_per_ray, 0);
@@ -57,15 +65,16 @@ TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
     EXPECT_EQ(row.undecided, 0);
     EXPECT_GT(row.phi_worst, 0);
     // Far from the hole an angle of 1e-7 that is given as its supplement has lost digits, but no
-    // sky shows them.
-    const double exact = row.difficulty == "far" ? 1e-10 : 1e-13;
+    // sky shows them.  About a spin light that circles for a thousand radians has lost three.
+    const bool lost = row.difficulty == "far" || row.region.starts_with("spin");
+    const double exact = lost ? 1e-10 : 1e-13;
     EXPECT_LT(row.phi_worst, row.method == "table" ? 1e-9 : exact);
     EXPECT_LT(row.sky_worst, row.method == "table" ? 1e-9 : 1e-12);
   }
 }
 
 TEST(RayMethods, HaveTheirDefaultOnceAmongTheirSettings) {
-  for (const RayKind kind : {RayKind::kHole, RayKind::kCharge, RayKind::kWormhole})
+  for (const RayKind kind : {RayKind::kHole, RayKind::kCharge, RayKind::kWormhole, RayKind::kSpin})
     for (const bool quick : {false, true})
       for (const RayMethod& method : compared_methods(kind, quick)) {
         const std::set<double> different(method.settings.begin(), method.settings.end());
