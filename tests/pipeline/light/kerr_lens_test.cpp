@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "pipeline/light/kerr_points.h"
+#include "pipeline/light/kerr_request.h"
 #include "pipeline/light/lens_store.h"
 #include "tests/sanitized.h"
 
@@ -117,15 +121,16 @@ TEST(KerrLens, HasTheSameRaysInBatchesAndAlone) {
   }
 }
 
-// Without spin it is Schwarzschild's lens.
+// Without spin it is the lens of a sphere, by its tables, with and without a charge.
 TEST(KerrLens, OfLittleSpinIsThatOfNone) {
   std::mt19937 random(6);
   std::normal_distribution<double> normal;
-  for (const double r : {30.0, 6.0, 2.5}) {
-    SpinPlace place{1e-9, 0, r, 1.3};
+  for (const auto& [r, charge] :
+       {std::pair(30.0, 1e-12), {6.0, 1e-12}, {2.5, 1e-12}, {10.0, 0.7}, {2.1, 0.95}}) {
+    SpinPlace place{1e-9, charge, r, 1.3};
     ObserverState o = place.observer();
     const auto spinning = LensStore().lens(o, {});
-    o.spacetime = ChargedHole(1, 1e-12);
+    o.spacetime = ChargedHole(1, charge);
     const auto still = LensStore().lens(o, {});
     for (int k = 0; k < 200; ++k) {
       const V3d d = V3d(normal(random), normal(random), normal(random)).normalized();
@@ -193,6 +198,110 @@ TEST(KerrPoints, AreSeenWhereTheirLightComesFrom) {
   }
 }
 
+// Against brute force: a net of exact rays over the view, each triangle of which holds an image of what is
+// within its place on the sky, found to the last digit by Newton's method.
+class ImagesByForce {
+ public:
+  explicit ImagesByForce(const KerrPlace& at) : at_(at) {
+    for (int row = 0; row <= kRows; ++row)
+      for (int column = 0; column <= kColumns; ++column)
+        net_.push_back(trace_kerr_without_area(at_, direction(row, column)).sky);
+  }
+
+  // Returns the sum of the images' amplifications.
+  double light(const V3d& star) const {
+    double sum = 0;
+    std::vector<V3d> found;
+    for (int row = 0; row < kRows; ++row)
+      for (int column = 0; column < kColumns; ++column) {
+        const V3d &a = net(row, column), &b = net(row + 1, column), &c = net(row, column + 1),
+                  &d = net(row + 1, column + 1);
+        const double reach = std::max((a - d).length2(), (b - c).length2());
+        if ((a - star).length2() > 4 * reach || reach > 1) continue;
+        if (holds(a, b, c, star) || holds(b, d, c, star)) sum += image(row, column, star, found);
+      }
+    return sum;
+  }
+
+ private:
+  static constexpr int kRows = 260, kColumns = 520;
+  static constexpr double kLeast = -13;
+
+  KerrDirection direction(double row, double column) const {
+    const double eta = 2 * pi * column / kColumns;
+    const auto from = static_cast<double>(critical_ray(at_, eta, KerrEdge::kSilhouette).delta);
+    return {0, eta, KerrEdge::kSilhouette, std::exp(kLeast * (1 - row / kRows)) * (pi - from)};
+  }
+  const V3d& net(int row, int column) const {
+    return net_[static_cast<std::size_t>(row * (kColumns + 1) + column)];
+  }
+  static bool holds(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
+    const double x = a.cross(b).dot(p), y = b.cross(c).dot(p), z = c.cross(a).dot(p);
+    return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
+  }
+  double image(int row, int column, const V3d& star, std::vector<V3d>& found) const {
+    double delta = static_cast<double>(kerr_delta(at_, direction(row + 0.5, column + 0.5)));
+    double eta = 2 * pi * (column + 0.5) / kColumns;
+    for (int i = 0; i < 30; ++i) {
+      const TracedKerr ray = trace_kerr(at_, {delta, eta});
+      if (ray.origin == KerrOrigin::kPastHorizon) return 0;
+      const V3d off = star - ray.sky, normal = ray.by_delta.cross(ray.across);
+      const double det = normal.dot(ray.sky);
+      const double by_delta = off.cross(ray.across).dot(ray.sky) / det;
+      const double by_eta = ray.by_delta.cross(off).dot(ray.sky) / det / std::sin(delta);
+      if (std::hypot(by_delta, by_eta) < 1e-11) {
+        const V3d n = view(delta, eta);
+        for (const V3d& other : found)
+          if ((other - n).length() < 1e-9) return 0;
+        found.push_back(n);
+        return ray.amplification;
+      }
+      const double slow = std::min(1.0, 0.1 / std::hypot(by_delta, by_eta));
+      delta += slow * by_delta, eta += slow * by_eta;
+      if (!(delta > 0 && delta < pi)) return 0;
+    }
+    return 0;
+  }
+
+  KerrPlace at_;
+  std::vector<V3d> net_;
+};
+
+TEST(KerrPoints, HaveTheLightOfBruteForce) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> part(0, 1);
+  int stars = 0, bright = 0;
+  for (const SpinPlace& place : {places()[0], places()[4], places()[7]}) {
+    const ImagesByForce force(place.at());
+    const KerrChart chart(place.at(), KerrEdge::kSilhouette);
+    const double s = std::sin(place.theta), c = std::cos(place.theta);
+    const KerrPoints points(chart, s, c);
+    for (int k = 0; k < tries(66, 6); ++k) {
+      V3d sky = V3d(normal(random), normal(random), normal(random)).normalized();
+      if (k % 2 == 0) {
+        // Next to a caustic, where some image is bright.
+        for (int i = 0; i < 100000; ++i) {
+          const double eta = 2 * pi * part(random), away = std::exp(-3 * part(random));
+          const double from = chart.edge(eta).delta;
+          const TracedKerr ray = trace_kerr(place.at(), {from + away * (pi - from), eta});
+          sky = ray.sky;
+          if (ray.amplification > 5 && ray.amplification < 100) break;
+        }
+      }
+      const double light = force.light(sky);
+      std::vector<SkyImage> images;
+      points.list_images(V3d(sky.x * s + sky.z * c, sky.x * c - sky.z * s, sky.y), 0, 0, images);
+      double sum = 0;
+      for (const SkyImage& image : images) sum += image.amplification;
+      ++stars, bright += light > 10;
+      EXPECT_NEAR(sum / light, 1, 1e-3)
+          << place.spin << " " << place.r << " star " << k << " light " << light;
+    }
+  }
+  std::cout << stars << " stars, " << bright << " of them brighter than tenfold\n";
+}
+
 TEST(KerrLens, AimsAtThePrimaryImage) {
   std::mt19937 random(9);
   std::normal_distribution<double> normal;
@@ -209,6 +318,25 @@ TEST(KerrLens, AimsAtThePrimaryImage) {
   }
 }
 
+// Next to the horizon sky III is smaller than the end of its chart, where all directions meet.
+TEST(KerrChart, HoldsASkyThatIsSmall) {
+  for (const double below : {1e-2, 1e-4, 1e-6}) {
+    const KerrHole hole{0.9L};
+    const KerrPlace at{hole, hole.horizon() - below, 1.2L};
+    const KerrChart chart(at, KerrEdge::kRegionThree);
+    for (int k = 0; k < tries(300, 30); ++k) {
+      const double eta = 2 * pi * k * 0.7548776662466927,
+                   part = std::fmod(k * 0.618033988749895, 1);
+      const KerrChart::Edge edge = chart.edge(eta);
+      const double delta = part * part * edge.delta;
+      const KerrChart::Place place = chart.place(delta, eta, edge);
+      const TracedKerr exact = trace_kerr(at, {delta, eta});
+      if (exact.origin != KerrOrigin::kParallel) continue;
+      EXPECT_LT((place.sky - exact.sky).length(), 2e-5) << below << " " << eta << " " << part;
+    }
+  }
+}
+
 // The silhouette of an observer far away, Bardeen's curve.
 TEST(KerrLens, HasBardeensSilhouette) {
   for (const double spin : {0.3, 0.7, 0.94, 0.998, 0.999999})
@@ -219,18 +347,22 @@ TEST(KerrLens, HasBardeensSilhouette) {
         const double eta = 2 * pi * (k + 0.5) / 64;
         const CriticalRay ray = critical_ray(place.at(), eta, KerrEdge::kSilhouette);
         // By the radius of the light that circles: Bardeen, Press & Teukolsky, ApJ 178, 347 (1972).
-        const auto x = static_cast<double>(ray.x), a = spin;
-        const double xi = -(x * x * x - 3 * x * x + a * a * (x + 1)) / (a * (x - 1));
-        const double carter =
-            x * x * x * (4 * a * a - x * (x - 3) * (x - 3)) / (a * a * (x - 1) * (x - 1));
-        const double alpha = -xi / std::sin(theta);
-        const double beta2 = carter + a * a * std::cos(theta) * std::cos(theta) -
-                             xi * xi / (std::tan(theta) * std::tan(theta));
+        const long double x = ray.x, h = ray.above_one, a = spin;
+        const long double xi = -(x * x * x - 3 * x * x + a * a * (x + 1)) / (a * h);
+        const long double carter =
+            x * x * x * (4 * a * a - x * (x - 3) * (x - 3)) / (a * a * h * h);
+        const long double sine = std::sin(place.at().theta), cosine = std::cos(place.at().theta);
+        const long double alpha = -xi / sine;
+        const long double beta2 =
+            carter + a * a * cosine * cosine - xi * xi * cosine * cosine / (sine * sine);
+        // Whatever the distance, sqrt(K)/E is kappa, and L/E = sin(theta) (kappa sin(eta) + a sin(theta)).
+        const long double across = ray.kappa * std::sin(static_cast<long double>(eta));
+        const long double up = ray.kappa * std::cos(static_cast<long double>(eta));
+        EXPECT_NEAR(static_cast<double>(-across - a * sine), static_cast<double>(alpha), 1e-10);
+        EXPECT_NEAR(static_cast<double>(up * up), static_cast<double>(beta2), 1e-10);
+        // and far away that is r delta.
         const double size = r * std::sin(static_cast<double>(ray.delta));
-        const double own = -(size * std::sin(eta) + a * std::sin(theta));
-        const double scale = spin > 0.99 ? 2e-4 : 1e-6;
-        EXPECT_NEAR(own, alpha, scale) << spin << " " << theta << " " << eta;
-        EXPECT_NEAR(size * size * std::cos(eta) * std::cos(eta), beta2, 20 * scale);
+        EXPECT_NEAR(size, static_cast<double>(ray.kappa), 1e-6) << spin << " " << theta;
       }
     }
 }
