@@ -59,7 +59,7 @@ KerrPath<T>::KerrPath(const KerrStart& start, const KerrRoots& roots)
     : to_sky_(start.origin != KerrOrigin::kPastHorizon),
       spin_(static_cast<double>(start.at.hole.spin)),
       squares_(static_cast<double>(start.at.hole.squares())),
-      sigma_(static_cast<double>(start.at.sigma())),
+      sigma_(static_cast<double>(start.sigma)),
       x_(static_cast<double>(start.edge.x)),
       kappa2_(as_number<T>(start.kappa * start.kappa)),
       mu_(as_number<T>(start.mu)) {

@@ -22,7 +22,7 @@ T dual_number(long double v, long double by_delta = 0, long double by_eta = 0) {
 template <class T>
 KerrSphere<T> sphere_of(const KerrStart& start) {
   const long double a = start.at.hole.spin;
-  const long double sine = std::sin(start.at.theta), cosine = std::cos(start.at.theta);
+  const long double sine = start.sine, cosine = start.cosine;
   const Scaled &k = start.kappa, &mu = start.mu, &p = start.polar, &f = start.azimuthal;
   KerrSphere<T> sphere{};
   sphere.spin = static_cast<double>(a);

@@ -65,7 +65,7 @@ void set_real_pair(KerrRoots& out, const KerrStart& start, const Quartic& f) {
   const Long x = start.edge.x, t = start.edge.root, d = start.at.hole.horizon_distance();
   const Long px = start.edge.kappa * t - start.side * start.kappa_less_edge;
   const Long between =
-      f.a0 < 0 ? 0 : -px / (x + std::sqrt(std::max(Long{0}, start.mu.v - start.at.sigma())));
+      f.a0 < 0 ? 0 : -px / (x + std::sqrt(std::max(Long{0}, start.mu.v - start.sigma)));
   const Long lowest = -t * t / (start.edge.above_one + d);  // r_+ - x
   Long highest = std::max(between + 1, std::abs(start.kappa.v) + 4);
   while (f.at(highest) < 0) highest *= 2;
@@ -82,7 +82,7 @@ void set_real_pair(KerrRoots& out, const KerrStart& start, const Quartic& f) {
 // Sets the first pair where it is complex, by Ferrari's way and Bairstow's.
 void set_complex_pair(KerrRoots& out, const KerrStart& start, const Quartic& f) {
   const Long x = start.edge.x, k = start.kappa.v * start.kappa.v;
-  const Long inner = start.at.sigma() - start.mu.v, p = 2 * inner - k;
+  const Long inner = start.sigma - start.mu.v, p = 2 * inner - k;
   out.alike = std::abs(start.kappa.v) < 1e-3L;
   if (out.alike) {
     out.b1.v = 2 * x;

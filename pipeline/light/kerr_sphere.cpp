@@ -22,19 +22,17 @@ struct Expansion {
     const double a2 = at.spin * at.spin;
     PowerSeries<T>& u = n[2];
     for (std::size_t k = 0; k + 2 <= kOrder; ++k) {
-      squared[k] = product(u, u, k);
+      squared[k] = u[0] * u[k];
+      for (std::size_t i = 1; i <= k; ++i) squared[k] = squared[k] + u[i] * u[k - i];
+      // The three sums go on side by side, which no processor waits for.
+      std::array<T, 3> sum;
+      for (std::size_t j = 0; j < 3; ++j) sum[j] = squared[0] * n[j][k];
+      for (std::size_t i = 1; i <= k; ++i)
+        for (std::size_t j = 0; j < 3; ++j) sum[j] = sum[j] + squared[i] * n[j][k - i];
       const double over = -1.0 / static_cast<double>((k + 1) * (k + 2));
-      const double twice = 2 * a2;
-      n[0][k + 2] = over * (at.c * n[0][k] + twice * product(squared, n[0], k));
-      n[1][k + 2] = over * (at.c * n[1][k] + twice * product(squared, n[1], k));
-      u[k + 2] = over * ((at.c - a2) * u[k] + twice * product(squared, u, k));
+      for (std::size_t j = 0; j < 3; ++j)
+        n[j][k + 2] = over * ((j == 2 ? at.c - a2 : at.c) * n[j][k] + 2 * a2 * sum[j]);
     }
-  }
-
-  static T product(const PowerSeries<T>& a, const PowerSeries<T>& b, std::size_t k) {
-    T sum = a[0] * b[k];
-    for (std::size_t i = 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
-    return sum;
   }
 
   // Returns how far the series are good to the last digit.
@@ -56,13 +54,20 @@ T value_at(const PowerSeries<T>& s, double x) {
   return sum;
 }
 
-template <class T>
-T slope_at(const PowerSeries<T>& s, double x) {
-  T sum = s[kOrder] * double{kOrder};
-  for (int k = kOrder - 1; k >= 1; --k)
-    sum = sum * x + s[static_cast<std::size_t>(k)] * static_cast<double>(k);
-  return sum;
-}
+// A value and its derivative, and those of all three series, go on side by side.
+template <class T, std::size_t kCount>
+struct Along {
+  std::array<T, kCount> value, slope;
+
+  Along(const PowerSeries<T>* series, double x) {
+    for (std::size_t j = 0; j < kCount; ++j) value[j] = series[j][kOrder], slope[j] = T(0);
+    for (std::size_t k = kOrder; k-- > 0;)
+      for (std::size_t j = 0; j < kCount; ++j) {
+        slope[j] = slope[j] * x + value[j];
+        value[j] = value[j] * x + series[j][k];
+      }
+  }
+};
 
 template <class T>
 double integral_to(const PowerSeries<T>& s, double x) {
@@ -73,14 +78,13 @@ double integral_to(const PowerSeries<T>& s, double x) {
 }
 
 // Returns the zero of u between two places where its signs differ.
-template <class T>
-double zero_between(const PowerSeries<T>& u, double low, double high) {
-  const bool rising = value(value_at(u, high)) > 0;
+double zero_between(const PowerSeries<double>& u, double low, double high) {
+  const bool rising = value_at(u, high) > 0;
   double x = (low + high) / 2;
   for (int i = 0; i < 60; ++i) {
-    const double f = value(value_at(u, x));
-    ((f > 0) == rising ? high : low) = x;
-    double next = x - f / value(slope_at(u, x));
+    const Along<double, 1> at(&u, x);
+    ((at.value[0] > 0) == rising ? high : low) = x;
+    double next = x - at.value[0] / at.slope[0];
     if (!(next >= low && next <= high)) next = (low + high) / 2;
     if (std::abs(next - x) <= 1e-16 * std::abs(x)) return next;
     x = next;
@@ -97,15 +101,18 @@ void KerrSphere<T>::follow(double mino, bool with_crossings) {
   const bool on_equator = std::abs(value(place[2])) < 1e-15;
   for (double done = 0; done < mino;) {
     const Expansion<T> series(*this);
-    const PowerSeries<T>& u = series.n[2];
+    PowerSeries<double> u;
+    for (std::size_t k = 0; k <= kOrder; ++k) u[k] = value(series.n[2][k]);
     const double reach = series.reach();
     const bool ends = reach >= mino - done;
     const double step = ends ? mino - done : reach;
-    double rise = value(u[1]), height = done == 0 && on_equator ? 0 : value(u[0]);
-    if (rise == 0) rise = value(u[2]);
+    const Along<T, 3> end(series.n.data(), step);
+    double rise = u[1], height = done == 0 && on_equator ? 0 : u[0];
+    if (rise == 0) rise = u[2];
     for (int i = 1; i <= kLooks; ++i) {
       const double x = step * i / kLooks, before = step * (i - 1) / kLooks;
-      const double rises = value(slope_at(u, x)), there = value(value_at(u, x));
+      const Along<double, 1> at(&u, x);
+      const double rises = at.slope[0], there = at.value[0];
       if ((rises > 0) != (rise > 0) && rise != 0) ++turns;
       if (with_crossings && height != 0 && (there > 0) != (height > 0)) {
         const double zero = zero_between(u, before, x);
@@ -117,10 +124,7 @@ void KerrSphere<T>::follow(double mino, bool with_crossings) {
       rise = rises, height = there;
     }
     if (with_crossings) squares += integral_to(series.squared, step);
-    for (std::size_t i = 0; i < 3; ++i) {
-      place[i] = value_at(series.n[i], step);
-      speed[i] = slope_at(series.n[i], step);
-    }
+    place = end.value, speed = end.slope;
     if (ends) return;
     done += step;
   }

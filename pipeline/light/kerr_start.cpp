@@ -32,39 +32,56 @@ Real circling_root(Real sigma, Real d, Real s, Real guess) {
 }
 
 // The same, found in double first, which is quicker.
-Long circling_root(const KerrPlace& at, Long s) {
-  const Long d = at.hole.horizon_distance(), sigma = at.sigma();
+Long circling_root(Long sigma, Long d, Long s) {
   const auto near = circling_root<double>(static_cast<double>(sigma), static_cast<double>(d),
                                           static_cast<double>(s), 1.7);
   return circling_root<Long>(sigma, d, s, near);
 }
 
-// Sine and cosine of delta/2, and their distance from an edge.
+// What a ray starts from, so that each sine is found once.
+struct Angles {
+  Long sin_theta, cos_theta, sin_eta, cos_eta;
+  Long sigma, root;  // a^2 cos^2(theta), (r^2 + sigma)^(1/2)
+
+  Angles(const KerrPlace& at, Long eta)
+      : sin_theta(std::sin(at.theta)),
+        cos_theta(std::cos(at.theta)),
+        sin_eta(std::sin(eta)),
+        cos_eta(std::cos(eta)) {
+    const Long part = at.hole.spin * cos_theta;
+    sigma = part * part;
+    root = std::sqrt(at.r * at.r + sigma);
+  }
+};
+
+// Sine and cosine of delta/2 and of the edge's, and their distance.
 struct NearEdge {
   Long sine, cosine;
   Long apart;  // sin((delta - edge)/2)
-  Long edge_cosine;
+  Long edge_sine, edge_cosine;
 };
 
-NearEdge near_edge(const CriticalRay& edge, Long offset) {
-  const Long half = (edge.delta + offset) / 2;
-  return {std::sin(half), std::cos(half), std::sin(offset / 2), std::cos(edge.delta / 2)};
+NearEdge near_edge(const CriticalRay& edge, Long offset, Long root) {
+  const Long whole = std::hypot(edge.tau, root), sine = edge.tau / whole, cosine = root / whole;
+  const Long by_sine = std::sin(offset / 2), by_cosine = std::cos(offset / 2);
+  return {sine * by_cosine + cosine * by_sine, cosine * by_cosine - sine * by_sine, by_sine, sine,
+          cosine};
 }
 
-void set_constants(KerrStart& out, const NearEdge& half, Long eta) {
+void set_constants(KerrStart& out, const NearEdge& half, const Angles& angles) {
   const KerrPlace& at = out.at;
   const CriticalRay& edge = out.edge;
   const Long s = half.sine, c = half.cosine, delta_r = at.delta();
-  const Long big = at.r * at.r + at.sigma(), root = std::sqrt(big), sin_delta = 2 * s * c;
-  const Long sign = out.mirrored ? -1 : 1, sine = sign * std::sin(eta), cosine = std::cos(eta);
-  const Long axis = at.hole.spin * std::sin(at.theta);
+  const Long root = angles.root, big = at.r * at.r + angles.sigma, sin_delta = 2 * s * c;
+  const Long sign = out.mirrored ? -1 : 1, sine = sign * angles.sin_eta, cosine = angles.cos_eta;
+  const Long axis = at.hole.spin * angles.sin_theta;
   out.side = axis * sine;
   // D is Sigma |E|.
   const auto d_of = [&](Long sin_half, Long cos_half) {
     return sign * (big * sin_half * sin_half + delta_r * cos_half * cos_half) +
            2 * out.side * root * sin_half * cos_half;
   };
-  const Long d = d_of(s, c), edge_d = d_of(std::sin(edge.delta / 2), half.edge_cosine);
+  const Long d = d_of(s, c), edge_d = d_of(half.edge_sine, half.edge_cosine);
   out.energy = sign * d / big;
   // With nu = tau - tau_e: Delta - tau_e^2 = 2 X tau_e/kappa, without cancellation.
   const Long cc = c * half.edge_cosine, nu = root * half.apart;  // nu c c_e
@@ -93,19 +110,12 @@ void set_constants(KerrStart& out, const NearEdge& half, Long eta) {
                    out.kappa.by_eta * sine + over * cosine};
 }
 
-}  // namespace
-
-Long KerrPlace::sigma() const {
-  const Long part = hole.spin * std::cos(theta);
-  return part * part;
-}
-
-CriticalRay critical_ray(const KerrPlace& at, Long eta, KerrEdge edge) {
+CriticalRay critical_ray(const KerrPlace& at, const Angles& angles, KerrEdge edge) {
   const bool third = edge == KerrEdge::kRegionThree;
-  const Long s = at.hole.spin * std::sin(at.theta) * std::sin(eta) * (third ? -1 : 1);
+  const Long s = at.hole.spin * angles.sin_theta * angles.sin_eta * (third ? -1 : 1);
   const Long d = at.hole.horizon_distance();
   CriticalRay out;
-  out.root = circling_root(at, s);
+  out.root = circling_root(angles.sigma, d, s);
   out.above_one = std::hypot(out.root, d);
   const Long x = out.x = 1 + out.above_one;
   const Long cosine = out.root / out.above_one;
@@ -120,18 +130,31 @@ CriticalRay critical_ray(const KerrPlace& at, Long eta, KerrEdge edge) {
     out.tau =
         p > 0 && out.far > 0 ? out.kappa * delta_r / (p + out.far) : (p - out.far) / out.kappa;
   }
-  out.delta = 2 * std::atan2(out.tau, std::sqrt(at.r * at.r + at.sigma()));
+  out.delta = 2 * std::atan2(out.tau, angles.root);
   return out;
+}
+
+}  // namespace
+
+Long KerrPlace::sigma() const {
+  const Long part = hole.spin * std::cos(theta);
+  return part * part;
+}
+
+CriticalRay critical_ray(const KerrPlace& at, Long eta, KerrEdge edge) {
+  return critical_ray(at, Angles(at, eta), edge);
 }
 
 KerrStart kerr_start(const KerrPlace& at, const KerrDirection& direction) {
   KerrStart out{};
   out.at = at;
+  const Angles angles(at, direction.eta);
+  out.sine = angles.sin_theta, out.cosine = angles.cos_theta, out.sigma = angles.sigma;
   const bool by_third = direction.edge == KerrEdge::kRegionThree;
-  out.edge = critical_ray(at, direction.eta, KerrEdge::kSilhouette);
+  out.edge = critical_ray(at, angles, KerrEdge::kSilhouette);
   const bool within = at.delta() < 0;
   const CriticalRay third =
-      within ? critical_ray(at, direction.eta, KerrEdge::kRegionThree) : CriticalRay{};
+      within ? critical_ray(at, angles, KerrEdge::kRegionThree) : CriticalRay{};
   Long delta = direction.delta, apart = delta - out.edge.delta, from_third = delta - third.delta;
   if (direction.edge) {
     delta = (by_third ? third : out.edge).delta + direction.offset;
@@ -141,13 +164,12 @@ KerrStart kerr_start(const KerrPlace& at, const KerrDirection& direction) {
   out.origin = apart > 0 ? KerrOrigin::kOwn : KerrOrigin::kPastHorizon;
   if (within && apart <= 0) {
     if (from_third < 0) out.origin = KerrOrigin::kParallel;
-    const Long s = std::sqrt(at.r * at.r + at.sigma()) * std::sin(delta / 2);
-    const Long c = std::cos(delta / 2);
-    const Long side = at.hole.spin * std::sin(at.theta) * std::sin(direction.eta);
+    const Long s = angles.root * std::sin(delta / 2), c = std::cos(delta / 2);
+    const Long side = at.hole.spin * angles.sin_theta * angles.sin_eta;
     out.mirrored = s * (s + 2 * side * c) + at.delta() * c * c < 0;
     if (out.mirrored) out.edge = third, apart = from_third;
   }
-  set_constants(out, near_edge(out.edge, apart), direction.eta);
+  set_constants(out, near_edge(out.edge, apart, angles.root), angles);
   return out;
 }
 

@@ -61,10 +61,11 @@ struct Scaled {
 struct KerrStart {
   KerrPlace at;
   KerrOrigin origin;
-  bool mirrored;       // E < 0
-  long double energy;  // signed; |E| is emitted / observed frequency
-  CriticalRay edge;    // the nearest, of the same sign of E
-  long double side;    // s_1 = a sin(theta) sin(eta), mirrored
+  bool mirrored;                    // E < 0
+  long double energy;               // signed; |E| is emitted / observed frequency
+  long double sine, cosine, sigma;  // of theta, and a^2 cos^2(theta)
+  CriticalRay edge;                 // the nearest, of the same sign of E
+  long double side;                 // s_1 = a sin(theta) sin(eta), mirrored
   long double kappa_less_edge;
   Scaled kappa, mu;
   Scaled speed;             // r'/|E|, of the photon
