@@ -129,6 +129,7 @@ ViewRay KerrLens::ray(const V3d& n) const {
   ray.sky_direction = apply(axes_, exact.sky);
   ray.along = apply(axes_, ray.along);
   ray.frequency_ratio = 1 / std::abs(exact.energy);
+  ray.swept = exact.swept;
   const double area = 1 / exact.amplification;
   // By how much the area changes, from two rays beside it on the sky's side.
   const double step = std::min(1e-4, at.to_edge / 16), sine = std::max(std::sin(at.delta), 1e-6);

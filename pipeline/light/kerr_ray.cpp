@@ -36,6 +36,26 @@ KerrSphere<T> sphere_of(const KerrStart& start) {
   return sphere;
 }
 
+// Returns pi over the Mino time, with E = 1, of half a turn of the latitude.  Of u = cos(theta) it is
+//
+//     u'^2 = Q - b u^2 - a^2 u^4    Q = kappa^2 - g^2    b = kappa^2 + 2 a g    g = L - a
+//
+// so that the half turn is a complete elliptic integral, pi over an arithmetic-geometric mean.
+double latitude_rate(const KerrStart& start) {
+  const auto a = static_cast<double>(start.at.hole.spin), k = static_cast<double>(start.kappa.v);
+  const auto g = static_cast<double>(start.sine * start.azimuthal.v) - a;
+  const double q = k * k - g * g, b = k * k + 2 * a * g;
+  if (!(q > 0)) return 0;
+  const double root = std::sqrt(b * b + 4 * a * a * q);
+  double one = std::sqrt((b + root) / 2), other = std::sqrt(root);
+  while (std::abs(one - other) > 1e-15 * other) {
+    const double mean = std::sqrt(one * other);
+    one = (one + other) / 2;
+    other = mean;
+  }
+  return one;
+}
+
 template <class T>
 void follow_to_sky(const KerrStart& start, const KerrRoots& roots, double ratio, TracedKerr& out) {
   const KerrPath<T> path(start, roots);
@@ -44,6 +64,7 @@ void follow_to_sky(const KerrStart& start, const KerrRoots& roots, double ratio,
   sphere.follow(value(whole.mino), false);
   out.mino = value(whole.mino) / std::abs(out.energy);
   out.turns = sphere.turns;
+  out.swept = value(whole.mino) * latitude_rate(start);
   const V3d n(value(sphere.place[0]), value(sphere.place[1]), value(sphere.place[2]));
   double angle = value(whole.angle);
   if (start.mirrored) angle = -angle - static_cast<double>(2 * start.at.hole.twist(start.at.r));
@@ -68,8 +89,8 @@ void follow_to_sky(const KerrStart& start, const KerrRoots& roots, double ratio,
   }
 }
 
-// Returns how much of delta the direction then has: takes as the second direction, instead of that of eta, nearly the one along the edge.  Next to an edge
-// the sky changes much and alike in any other two.
+// Takes as the second direction, instead of that of eta, nearly the one along the edge, and returns how
+// much of delta it then has.  Next to an edge the sky changes much and alike in any other two.
 double turn_along_edge(KerrStart& start, KerrRoots& roots) {
   const auto change = [&](long double Scaled::*by) {
     return 2 * roots.b1.v * (roots.b1.*by) - 4 * (roots.b0.*by);

@@ -21,6 +21,10 @@ struct TracedKerr {
   V3d by_delta, across;  // by how much it moves by delta, and by an angle across, sin(delta) eta
   int turns;             // how often cos(theta) was extreme on the way
   double mino;           // Mino time to the sky
+  // pi times the half turns of the latitude, and their parts, from the sky to here, each of which takes
+  // the same Mino time; without spin this is the azimuth.  It is 0 for light that stays on one side of
+  // the equator, which hardly turns.
+  double swept;
 };
 TracedKerr trace_kerr(const KerrPlace& at, const KerrDirection& direction);
 // This leaves the amplification out, which takes two fifths of the time.

@@ -45,7 +45,9 @@ struct ViewRay {
   // These two are for skies I and III.  Each half turn about the hole begins another order of
   // images.
   RayBundle bundle;
-  double swept = 0;  // by the light about the hole, radians; 0 for straight light
+  // By the light about the hole, radians; 0 for straight light.  About a spin it is pi times the half
+  // turns of its latitude.
+  double swept = 0;
   // The angle in the view to the nearest edge of a sky (radians) is right to first order in it, and
   // infinite without an edge.  A rim along which images of a sky are crowded counts as an edge, and
   // is no nearer than the rim is wide.

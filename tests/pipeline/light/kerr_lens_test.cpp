@@ -142,6 +142,7 @@ TEST(KerrLens, OfLittleSpinIsThatOfNone) {
       if (!a.known) continue;
       EXPECT_LT((a.sky_direction - b.sky_direction).length(), 1e-7 * (1 + b.longer()));
       EXPECT_NEAR(a.frequency_ratio, b.frequency_ratio, 1e-8);
+      EXPECT_NEAR(a.swept, b.swept, 1e-7 * (1 + b.longer()));
       EXPECT_NEAR(a.longer() / b.longer(), 1, 1e-6);
       EXPECT_NEAR(a.shorter(), b.shorter(), 1e-6 * b.longer());
       EXPECT_EQ(a.mirrored, b.mirrored);

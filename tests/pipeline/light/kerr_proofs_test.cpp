@@ -102,6 +102,20 @@ double turns_from(const KerrPlace& at, double eta, int turns) {
   return low;
 }
 
+// From one turn of the latitude to the next, half a turn is swept.
+TEST(KerrRay, SweepsHalfTurnsOfTheLatitude) {
+  for (const long double spin : {1e-3L, 0.5L, 0.998L})
+    for (const double eta : {0.3, 1.2, 2.4, -0.8, -1.4}) {
+      const KerrPlace at{{spin}, 10, 1.3L};
+      const auto swept = [&](int turns) {
+        const double offset = turns_from(at, eta, turns);
+        return trace_kerr_without_area(at, {0, eta, KerrEdge::kSilhouette, offset}).swept;
+      };
+      EXPECT_NEAR(swept(10) - swept(9), pi, 1e-6) << spin << " " << eta;
+      EXPECT_NEAR(swept(9) - swept(6), 3 * pi, 0.02) << spin << " " << eta;
+    }
+}
+
 // The images between one turn of the latitude and the next are a band along the edge.
 TEST(KerrEdge, ImagesThinOutByTheExponentOfLightThatCircles) {
   for (const long double spin : {0.5L, 0.9L, 0.998L})

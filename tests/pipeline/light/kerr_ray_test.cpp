@@ -98,6 +98,7 @@ TEST(KerrRay, WithoutSpinIsThatOfACharge) {
     const V3d place = n * std::cos(charged.phi) - e * std::sin(charged.phi);
     EXPECT_LT((ray.sky - place).length(), 1e-13 * (1 + std::abs(charged.slope)));
     EXPECT_LT(off(ray.energy, charged.energy), 1e-13);
+    EXPECT_LT(off(ray.swept, charged.phi), 1e-13 * (1 + std::abs(charged.slope)));
     EXPECT_LT(off(ray.amplification, charged.amplification), 1e-6);
   }
 }
