@@ -11,7 +11,8 @@ using std::numbers::pi;
 
 }  // namespace
 
-KerrLatitude::KerrLatitude(double c, double k, const V3d& n, const V3d& speed) : c_(c), k_(k) {
+KerrLatitude::KerrLatitude(double k, const V3d& n, const V3d& speed)
+    : c_(speed.length2() - k * n.z * n.z), k_(k) {
   follow({0, n, speed});
 }
 

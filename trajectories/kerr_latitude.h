@@ -16,8 +16,8 @@ namespace domefall {
 
 class KerrLatitude {
  public:
-  // It has that N and N' at l = 0.
-  KerrLatitude(double c, double k, const V3d& n, const V3d& speed);
+  // It has that N and N' at l = 0, which tell C.
+  KerrLatitude(double k, const V3d& n, const V3d& speed);
 
   struct Node {
     double l;

@@ -24,6 +24,17 @@ struct Metric {
   }
 };
 
+// Returns E^2 - 1, by E - 1 = (T - 1) - m (T + R)/Sigma + a sin(theta) Phi/sqrt Sigma with 2m = Sigma -
+// Delta, which keeps its digits far away.
+double excess_of(const Metric& g, double theta, const Celerity<ReferenceTetrad>& u, double energy) {
+  const double time = gamma_of(u);
+  if (time > 2) return (energy - 1) * (energy + 1);
+  const double m = (g.charged - g.spin * g.spin * g.sine2) / 2;
+  const double above = u.length2() / (1 + time) - m * (time + u.x) / g.sigma +
+                       g.spin * std::sin(theta) * u.z / std::sqrt(g.sigma);
+  return above * (energy + 1);
+}
+
 }  // namespace
 
 double along_falling(const KerrHole& hole, double r, double p, double speed, double carter) {
@@ -44,7 +55,7 @@ KerrMotion kerr_motion(const KerrHole& hole, double r, double theta,
   const double around = root * sine * u.z;  // Y
   const double energy = (p + a * around) / g.sigma;
   const double cosine = std::cos(theta);
-  return {energy, around + a * energy * sine * sine,
+  return {energy, excess_of(g, theta, u, energy), around + a * energy * sine * sine,
           g.sigma * (u.y * u.y + u.z * u.z) + a * a * cosine * cosine, u};
 }
 
@@ -68,8 +79,11 @@ std::optional<KerrMotion> kerr_motion(const KerrHole& hole, double r, double the
   if (!speed || !polar) return std::nullopt;
   const double rate = sign_r * *speed, outward = along_falling(hole, r, p, rate, carter),
                b = (p - rate) / (2 * g.sigma), size = std::sqrt(g.sigma);
-  return KerrMotion{
-      energy, momentum, carter, {outward / 2 - b, sign_theta * *polar / size, around / size}};
+  return KerrMotion{energy,
+                    (energy - 1) * (energy + 1),
+                    momentum,
+                    carter,
+                    {outward / 2 - b, sign_theta * *polar / size, around / size}};
 }
 
 double dragged_velocity(const KerrHole& hole, double r, double theta) {
@@ -88,12 +102,12 @@ std::optional<KerrMotion> kerr_circling(const KerrHole& hole, double r, double t
   const double per_sine2 =
       time * (velocity * g.around(r) - g.spin * g.charged / g.sigma);  // L/sin^2
   const double a = g.spin, momentum = per_sine2 * g.sine2;
-  const double p = (r * r + a * a) * energy - a * momentum, sine = std::sin(theta);
-  return KerrMotion{energy,
-                    momentum,
-                    p * p / delta - r * r,
-                    {p / (2 * delta) - p / (2 * g.sigma), 0,
-                     (per_sine2 - a * energy) * sine / std::sqrt(g.sigma)}};
+  const double p = (r * r + a * a) * energy - a * momentum, cosine = std::cos(theta);
+  const double around = (per_sine2 - a * energy) * std::sin(theta);
+  const Celerity<ReferenceTetrad> celerity{p / (2 * delta) - p / (2 * g.sigma), 0,
+                                           around / std::sqrt(g.sigma)};
+  return KerrMotion{energy, excess_of(g, theta, celerity, energy), momentum,
+                    around * around + a * a * cosine * cosine, celerity};
 }
 
 double circling_rate(const KerrHole& hole, double r, double theta, double velocity) {
@@ -102,14 +116,37 @@ double circling_rate(const KerrHole& hole, double r, double theta, double veloci
          std::sqrt(g.tt() + 2 * velocity * g.tphi() - velocity * velocity * g.sine2 * g.around(r));
 }
 
+namespace {
+
+struct BoundConstants {
+  double energy2, momentum, carter_q;
+};
+
+// Over both ends of the axis L = 0, and where r turns
+//
+//     E^2 [(r^2 + a^2)^2/Delta - a^2] = r^2 + Q.
+std::optional<BoundConstants> polar_constants(const KerrHole& hole, double periastron,
+                                              double apoastron) {
+  const auto a2 = static_cast<double>(hole.spin * hole.spin);
+  const auto pull = [&](double r) {
+    return (r * r + a2) * (r * r + a2) / static_cast<double>(hole.delta(r)) - a2;
+  };
+  const double r = periastron, squares = r * r + a2, delta = static_cast<double>(hole.delta(r));
+  const double energy2 = apoastron > r
+                             ? (apoastron - r) * (apoastron + r) / (pull(apoastron) - pull(r))
+                             : r * delta * delta / (squares * (2 * r * delta - squares * (r - 1)));
+  if (!(energy2 > 0 && energy2 < 1)) return std::nullopt;
+  return BoundConstants{energy2, 0, pull(r) * energy2 - r * r};
+}
+
 // With Q = z [a^2 (1 - E^2) + L^2/(1 - z)], z = sin^2 of the inclination, where r turns
 //
 //     f E^2 - 2 g E L - h L^2 - d = 0
 //
 // (W. Schmidt, Class. Quantum Grav. 19, 2743 (2002), here with a charge).  Between two such radii, or for
 // a circle with its derivative, E^2 has a quadratic.
-std::optional<KerrMotion> kerr_bound(const KerrHole& hole, double periastron, double apoastron,
-                                     double inclination) {
+std::optional<BoundConstants> inclined_constants(const KerrHole& hole, double periastron,
+                                                 double apoastron, double inclination) {
   const auto a = static_cast<double>(hole.spin), q = static_cast<double>(hole.charge);
   const double sine = std::sin(inclination), z = sine * sine, open = (1 - sine) * (1 + sine);
   struct Turn {
@@ -127,7 +164,6 @@ std::optional<KerrMotion> kerr_bound(const KerrHole& hole, double periastron, do
                 4 * r * r * r + a * a * (2 * r + 2 + z * rate), 2 * a,
                 2 * (r - 1) + z / open * rate};
   };
-  if (!(open > 1e-12)) return std::nullopt;
   const Turn one = turn(periastron),
              two = apoastron > periastron ? turn(apoastron) : slope(periastron);
   const auto cross = [](double a1, double b1, double a2, double b2) { return a1 * b2 - a2 * b1; };
@@ -147,17 +183,34 @@ std::optional<KerrMotion> kerr_bound(const KerrHole& hole, double periastron, do
   if (!(root2 >= 0) || one.h == 0) return std::nullopt;
   const double momentum = (-one.g * energy + (retrograde ? -1 : 1) * std::sqrt(root2)) / one.h;
   if (retrograde != (momentum < 0)) return std::nullopt;
-  const double carter_q = z * (a * a * (1 - energy2) + momentum * momentum / open);
-  // r must be able to grow from there on.
+  return BoundConstants{energy2, momentum,
+                        z * (a * a * (1 - energy2) + momentum * momentum / open)};
+}
+
+}  // namespace
+
+std::optional<KerrMotion> kerr_bound(const KerrHole& hole, double periastron, double apoastron,
+                                     double inclination) {
   if (!(periastron > static_cast<double>(hole.horizon()))) return std::nullopt;
+  constexpr double kOverTheAxis = 1e-6;
+  const auto found = std::abs(std::cos(inclination)) < kOverTheAxis
+                         ? polar_constants(hole, periastron, apoastron)
+                         : inclined_constants(hole, periastron, apoastron, inclination);
+  if (!found) return std::nullopt;
+  const double energy = std::sqrt(found->energy2), momentum = found->momentum;
   auto motion =
-      kerr_motion(hole, periastron, std::numbers::pi / 2, energy, momentum, carter_q, 0, -1);
+      kerr_motion(hole, periastron, std::numbers::pi / 2, energy, momentum, found->carter_q, 0, -1);
   if (!motion) return std::nullopt;
-  const double over = momentum - a * energy, carter = carter_q + over * over;
-  const double constant = a * (a * energy - momentum), r = periastron;
-  const double pull = 2 * (energy2 - 1) * r * r * r + 3 * r * r +
-                      (2 * energy * constant - static_cast<double>(hole.squares()) - carter) * r +
-                      carter;
+  const auto a = static_cast<double>(hole.spin), charges = static_cast<double>(hole.squares());
+  const double constant = a * (a * energy - momentum), carter = motion->carter,
+               linear = 2 * energy * constant - charges - carter;
+  // R = 0 at the apoastron tells 1 - E^2 of a far one to all digits.
+  const double w = 1 / apoastron;
+  motion->excess =
+      -w * (2 + w * (linear + w * (2 * carter + w * (constant * constant - charges * carter))));
+  // r must be able to grow from there on.
+  const double r = periastron;
+  const double pull = 2 * motion->excess * r * r * r + 3 * r * r + linear * r + carter;
   const double terms = 2 * r * r * r + 3 * r * r + carter;
   if (apoastron > periastron ? !(pull > 0) : std::abs(pull) > 1e-9 * terms) return std::nullopt;
   return motion;

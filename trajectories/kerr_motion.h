@@ -12,7 +12,7 @@
 namespace domefall {
 
 struct KerrMotion {
-  double energy, momentum, carter;  // E, L, K
+  double energy, excess, momentum, carter;  // E, E^2 - 1, L, K
   Celerity<ReferenceTetrad> celerity;
 };
 // Returns those of what moves with a celerity against the reference tetrad.  theta is 0 to pi.

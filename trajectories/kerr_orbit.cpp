@@ -17,7 +17,10 @@ V3d polar_speed(const KerrHole& hole, double r, double theta, const KerrMotion& 
   const double sine = std::sin(theta), cosine = std::cos(theta);
   const double root = std::sqrt(r * r + squared(a * cosine));
   const double south = root * motion.celerity.y,
-               around = root * motion.celerity.z + a * motion.energy * sine;
+               // Without angular momentum it goes over the axis, as no rounding may tell.
+      around = motion.momentum == 0 && sine > 0
+                   ? 0
+                   : root * motion.celerity.z + a * motion.energy * sine;
   return {cosine * south, around, -sine * south};
 }
 
@@ -47,22 +50,23 @@ struct KerrOrbit::Path {
         a(static_cast<double>(of.spin)),
         motion(m),
         radius(of, m, r, radial_speed(of, r, theta, m)),
-        latitude(m.carter + 2 * a * m.energy * m.momentum - squared(a * m.energy),
-                 a * a * (m.energy - 1) * (m.energy + 1), V3d(std::sin(theta), 0, std::cos(theta)),
+        latitude(a * a * m.excess, V3d(std::sin(theta), 0, std::cos(theta)),
                  polar_speed(of, r, theta, m)) {}
 
-  double tau_at(double l) const { return radius.at(l).squares + a * a * latitude.at(l).squares; }
-  double mino_at(double tau) const;
-  OrbitPoint point(double l) const;
+  DoubleDouble tau_at(const DoubleDouble& l) const {
+    return radius.at(l).squares + a * a * latitude.at(double(l)).squares;
+  }
+  DoubleDouble mino_at(const DoubleDouble& tau) const;
+  OrbitPoint point(const DoubleDouble& l) const;
 };
 
 // By Newton's method within bounds, since Sigma is above 0.
-double KerrOrbit::Path::mino_at(double tau) const {
-  double low = radius.first(), high = radius.last(), l = 0;
+DoubleDouble KerrOrbit::Path::mino_at(const DoubleDouble& tau) const {
+  DoubleDouble low = radius.first(), high = radius.last(), l = 0;
   if (low == -HUGE_VAL || high == HUGE_VAL) {
     const double period = radius.has_period() ? radius.period() : 1;
-    l = tau / ((radius.at(period).squares + a * a / 2 * period) / period);
-    const double wide = radius.has_period() ? period : std::abs(l);
+    l = double(tau) / ((double(radius.at(period).squares) + a * a / 2 * period) / period);
+    const double wide = radius.has_period() ? period : std::abs(double(l));
     for (double by = wide + 1e-9; low == -HUGE_VAL; by *= 2)
       if (tau_at(l - by) <= tau) low = l - by;
     for (double by = wide + 1e-9; high == HUGE_VAL; by *= 2)
@@ -70,28 +74,31 @@ double KerrOrbit::Path::mino_at(double tau) const {
   } else {
     const auto& nodes = radius.nodes();
     const auto later = std::upper_bound(
-        nodes.begin() + 1, nodes.end(), tau, [this](double t, const KerrRadius::Node& node) {
-          return t < node.squares + a * a * latitude.at(node.l).squares;
+        nodes.begin() + 1, nodes.end(), tau, [this](const auto& t, const KerrRadius::Node& node) {
+          return t < node.squares + a * a * latitude.at(double(node.l)).squares;
         });
     l = low = (later - 1)->l;
     if (later != nodes.end()) high = later->l;
   }
   for (int step = 0; step < 100; ++step) {
     const KerrRadius::Node r = radius.at(l);
-    const KerrLatitude::Node place = latitude.at(l);
-    const double over = r.squares + a * a * place.squares - tau;
+    const KerrLatitude::Node place = latitude.at(double(l));
+    const auto over = double(r.squares + a * a * place.squares - tau);
     (over > 0 ? high : low) = l;
-    const double next = l - over / (r.r * r.r + squared(a * place.n.z));
-    const double taken = next > low && next < high ? next : (low + high) / 2;
-    if (std::abs(taken - l) <= 1e-16 * std::abs(l)) break;
+    const DoubleDouble next = l - over / (r.r * r.r + squared(a * place.n.z));
+    const DoubleDouble taken = next > low && next < high ? next : low + double(high - low) / 2;
+    const double change = std::abs(double(taken - l));
     l = taken;
+    // What changes r by less than rounding.
+    if (change * (1 + std::abs(r.speed) / r.r) <= 1e-16 * std::abs(double(l))) break;
   }
   return l;
 }
 
-OrbitPoint KerrOrbit::Path::point(double l) const {
+OrbitPoint KerrOrbit::Path::point(const DoubleDouble& l) const {
   const KerrRadius::Node at = radius.at(l);
-  const KerrLatitude::Node place = latitude.at(l);
+  const KerrLatitude::Node place = latitude.at(double(l));
+  const auto passed = double(l);
   OrbitPoint point;
   const double across = std::hypot(place.n.x, place.n.y);
   const double cosine = place.n.z, sigma = at.r * at.r + a * a * cosine * cosine;
@@ -105,10 +112,11 @@ OrbitPoint KerrOrbit::Path::point(double l) const {
   point.region = at.r > static_cast<double>(hole.horizon()) ? Region::kI : Region::kII;
   point.r = at.r;
   point.theta = std::atan2(across, cosine);
-  point.azimuth = place.turned + a * (at.angle - motion.energy * l);
+  point.azimuth = place.turned + a * (at.angle - motion.energy * passed);
   point.celerity = {outward / 2 - b, place.speed.dot(south) / size,
                     (place.speed.dot(round) - a * motion.energy * across) / size};
-  point.null_time = at.time + a * (motion.momentum * l - a * motion.energy * (l - place.squares));
+  point.null_time =
+      at.time + a * (motion.momentum * passed - a * motion.energy * (passed - place.squares));
   return point;
 }
 
@@ -116,15 +124,15 @@ KerrOrbit::KerrOrbit(const KerrHole& hole, double r, double theta, const KerrMot
     : path_(std::make_shared<const Path>(hole, r, theta, motion)) {}
 
 OrbitPoint KerrOrbit::at(const ProperTime& tau) const {
-  const double l = path_->mino_at(double(tau));
+  const DoubleDouble l = path_->mino_at(tau);
   return path_->point(std::clamp(l, path_->radius.first(), path_->radius.last()));
 }
 
 double KerrOrbit::birth() const {
-  return path_->radius.comes_out() ? path_->tau_at(path_->radius.first()) : -kInfinity;
+  return path_->radius.comes_out() ? double(path_->tau_at(path_->radius.first())) : -kInfinity;
 }
 double KerrOrbit::death() const {
-  return path_->radius.ends() ? path_->tau_at(path_->radius.last()) : kInfinity;
+  return path_->radius.ends() ? double(path_->tau_at(path_->radius.last())) : kInfinity;
 }
 std::pair<double, double> KerrOrbit::reach() const {
   const KerrRadius& radius = path_->radius;
@@ -135,12 +143,26 @@ std::pair<double, double> KerrOrbit::reach() const {
 // Radii and latitudes have periods of their own, so that a period of tau is one on the average.
 double KerrOrbit::radial_period() const {
   const KerrRadius& radius = path_->radius;
-  return radius.has_period() ? path_->tau_at(radius.period()) : kInfinity;
+  return radius.has_period() ? double(path_->tau_at(radius.period())) : kInfinity;
 }
 
+namespace {
+
+// Returns the Mino time from which on something is sought.
+template <class Path>
+DoubleDouble mino_after(const Path& path, const ProperTime& after) {
+  return double(after) > -kInfinity ? path.mino_at(after) : DoubleDouble(-HUGE_VAL);
+}
+
+}  // namespace
+
 std::optional<ProperTime> KerrOrbit::time_at(double r, Leg leg, const ProperTime& after) const {
-  const double earliest = double(after) > -kInfinity ? path_->mino_at(double(after)) : -HUGE_VAL;
-  const auto l = path_->radius.passage(r, leg == Leg::kOutward, earliest);
+  const auto l = path_->radius.passage(r, leg == Leg::kOutward, mino_after(*path_, after));
+  return l ? std::optional<ProperTime>(path_->tau_at(*l)) : std::nullopt;
+}
+
+std::optional<ProperTime> KerrOrbit::next_periastron(const ProperTime& after) const {
+  const auto l = path_->radius.next_least(mino_after(*path_, after));
   return l ? std::optional<ProperTime>(path_->tau_at(*l)) : std::nullopt;
 }
 

@@ -34,6 +34,7 @@ class KerrOrbit {
   double death() const;
   std::optional<ProperTime> time_at(double r, Leg leg, const ProperTime& after = -kInfinity) const;
   std::pair<double, double> reach() const;
+  std::optional<ProperTime> next_periastron(const ProperTime& after) const;
   double radial_period() const;
 
  private:

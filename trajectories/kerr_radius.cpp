@@ -16,7 +16,7 @@ KerrRadius::KerrRadius(const KerrHole& hole, const KerrMotion& motion, double r,
     : hole_(hole),
       spin_(static_cast<double>(hole.spin)),
       energy_(motion.energy),
-      excess_((motion.energy - 1) * (motion.energy + 1)),
+      excess_(motion.excess),
       carter_(motion.carter),
       charges_(static_cast<double>(hole.squares())),
       constant_(spin_ * (spin_ * energy_ - motion.momentum)),
@@ -28,7 +28,10 @@ KerrRadius::KerrRadius(const KerrHole& hole, const KerrMotion& motion, double r,
 KerrRadius::NodeSeries KerrRadius::series(const Node& at) const {
   NodeSeries s{};
   Series cube{}, p{}, delta{};
-  s.r[0] = at.r, s.r[1] = at.speed;
+  // The terms of fast and of far ways would overflow without a unit.
+  s.unit = 1 / (1 + std::abs(energy_) * at.r + std::sqrt(std::abs(carter_)));
+  const double unit = s.unit;
+  s.r[0] = at.r, s.r[1] = at.speed * unit;
   const bool falls = at.speed <= 0;
   for (int n = 0; n < kTerms; ++n) {
     const auto j = static_cast<std::size_t>(n);
@@ -37,9 +40,9 @@ KerrRadius::NodeSeries KerrRadius::series(const Node& at) const {
     const double bent = 2 * excess_ * cube[j] + 3 * s.square[j] +
                         (2 * energy_ * constant_ - charges_ - carter_) * s.r[j] +
                         (n == 0 ? carter_ : 0);
-    s.r[j + 2] = bent / ((n + 1) * (n + 2));
+    s.r[j + 2] = unit * unit * bent / ((n + 1) * (n + 2));
     p[j] = energy_ * s.square[j] + (n == 0 ? constant_ : 0);
-    const double speed = (n + 1) * s.r[j + 1];
+    const double speed = (n + 1) * s.r[j + 1] / unit;
     // The numerator less what the terms before have of it, over the first term of the denominator.
     delta[j] = falls ? p[j] - speed : s.square[j] - 2 * s.r[j] + (n == 0 ? charges_ : 0);
     double rest = falls ? s.square[j] + (n == 0 ? carter_ : 0) : p[j] + speed;
@@ -51,8 +54,8 @@ KerrRadius::NodeSeries KerrRadius::series(const Node& at) const {
   for (int n = 0; n < kTerms; ++n)
     s.time[static_cast<std::size_t>(n)] =
         product(s.square, s.along, n) + spin_ * spin_ * s.along[static_cast<std::size_t>(n)];
-  s.reach = std::min(
-      {range(s.r, at.r), range(s.along, std::abs(s.along[0])), range(s.time, std::abs(s.time[0]))});
+  s.reach = unit * std::min({range(s.r, at.r), range(s.along, std::abs(s.along[0])),
+                             range(s.time, std::abs(s.time[0]))});
   return s;
 }
 
@@ -67,19 +70,20 @@ double KerrRadius::speed_at(double r, double nearly) const {
 }
 
 KerrRadius::Node KerrRadius::after(const Node& at, const NodeSeries& s, double h) const {
-  const double r = value(s.r, h);
+  const double r = s.radius(h);
   return {at.l + h,
           r,
-          speed_at(r, slope(s.r, h)),
-          at.squares + integral(s.square, h),
-          at.angle + integral(s.along, h),
-          at.time + integral(s.time, h)};
+          speed_at(r, s.speed(h)),
+          at.squares + s.unit * integral(s.square, h / s.unit),
+          at.time + s.unit * integral(s.time, h / s.unit),
+          at.angle + s.unit * integral(s.along, h / s.unit)};
 }
 
 void KerrRadius::follow(const Node& start) {
   NodeSeries s = series(start);
-  const double bent = std::abs(s.r[2]), terms = std::abs(2 * excess_ * std::pow(start.r, 3)) +
-                                                3 * start.r * start.r + std::abs(carter_);
+  const double bent = std::abs(s.r[2] / (s.unit * s.unit)),
+               terms = std::abs(2 * excess_ * std::pow(start.r, 3)) + 3 * start.r * start.r +
+                       std::abs(carter_);
   // How much steeper the pull becomes outwards, by r.
   const double stiff = -(6 * excess_ * start.r * start.r + 6 * start.r + 2 * energy_ * constant_ -
                          charges_ - carter_);
@@ -88,16 +92,15 @@ void KerrRadius::follow(const Node& start) {
   nodes_.push_back(start);
   if (circles_) return;
   const double inner = static_cast<double>(hole_.inner_horizon()) + kInnerHorizon;
-  std::vector<double> turns;
+  std::vector<DoubleDouble> turns;
   Node now = start;
-  if (start.speed == 0) turns.push_back(0);
+  if (start.speed == 0) turns.emplace_back(0);
   while (turns.size() < 3) {
     const double h = std::min(s.reach, 1e3);
     Node next = after(now, s, h);
-    const auto radius = [&](double x) { return value(s.r, x); };
     if (next.r < inner || !(next.r < kFarthest)) {
       const double bound = next.r < inner ? inner : kFarthest;
-      const double x = zero_between([&](double t) { return radius(t) - bound; }, 0, h);
+      const double x = zero_between([&](double t) { return s.radius(t) - bound; }, 0, h);
       ends_ = next.r < inner;
       nodes_.push_back(after(now, s, x));
       last_ = now.l + x;
@@ -105,20 +108,19 @@ void KerrRadius::follow(const Node& start) {
       break;
     }
     const bool turned = now.speed != 0 && (now.speed > 0) != (next.speed > 0);
-    if (turned)
-      turns.push_back(now.l + zero_between([&](double t) { return slope(s.r, t); }, 0, h));
+    if (turned) turns.push_back(now.l + zero_between([&](double t) { return s.speed(t); }, 0, h));
     nodes_.push_back(next);
     now = next;
     if (!turned || turns.size() < 3) s = series(now);
     if (nodes_.size() > 100000)
       throw std::domain_error("r cannot be followed that near to a bound");
   }
-  for (const double turn : turns) {
+  for (const DoubleDouble& turn : turns) {
     const double r = at(turn).r;
     least_ = std::min(least_, r), greatest_ = std::max(greatest_, r);
   }
   if (turns.size() == 3) {
-    const double period = turns[2] - turns[0];
+    const auto period = double(turns[2] - turns[0]);
     sums_ = at(period);
     period_ = period;
     return;
@@ -142,7 +144,7 @@ void KerrRadius::follow_back(const Node& start) {
       const double bound = out ? horizon : kFarthest;
       double x = h;
       if ((now.r > bound) != (next.r > bound))
-        x = zero_between([&](double t) { return value(s.r, -t) - bound; }, 0, h);
+        x = zero_between([&](double t) { return s.radius(-t) - bound; }, 0, h);
       before.push_back(after(now, s, -x));
       first_ = now.l - x;
       comes_out_ = out;
@@ -156,46 +158,74 @@ void KerrRadius::follow_back(const Node& start) {
   nodes_.insert(nodes_.begin(), before.rbegin(), before.rend());
 }
 
-KerrRadius::Node KerrRadius::at(double l) const {
+KerrRadius::Node KerrRadius::at(const DoubleDouble& l) const {
   if (circles_) {
     const Node& node = nodes_.front();
+    const auto passed = double(l);
     const double p = energy_ * node.r * node.r + constant_,
                  along = along_falling(hole_, node.r, p, 0, carter_);
-    return {l,         node.r,
-            0,         node.r * node.r * l,
-            along * l, (node.r * node.r + spin_ * spin_) * along * l};
+    return {l,
+            node.r,
+            0,
+            node.r * node.r * passed,
+            (node.r * node.r + spin_ * spin_) * along * passed,
+            along * passed};
   }
-  const double periods = has_period() ? std::floor(l / period_) : 0;
-  const double rest = periods != 0 ? l - periods * period_ : l;
+  const double periods = has_period() ? std::floor(double(l) / period_) : 0;
+  const DoubleDouble rest = periods != 0 ? l - periods * period_ : l;
   const Node& node = node_before(nodes_, rest);
-  Node there = after(node, series(node), rest - node.l);
+  Node there = after(node, series(node), double(rest - node.l));
   there.l = l;
   if (periods != 0) {
-    there.squares += periods * sums_.squares;
+    there.squares = there.squares + periods * double(sums_.squares);
+    there.time = there.time + periods * double(sums_.time);
     there.angle += periods * sums_.angle;
-    there.time += periods * sums_.time;
   }
   return there;
 }
 
-std::optional<double> KerrRadius::passage(double r, bool outward, double after_l) const {
-  std::optional<double> found;
+std::optional<DoubleDouble> KerrRadius::first_after(DoubleDouble l,
+                                                    const DoubleDouble& after_l) const {
+  if (!has_period()) return l >= after_l ? std::optional(l) : std::nullopt;
+  // The instant itself comes back rounded.
+  const double periods = double(after_l - l) / period_ - 1e-12;
+  if (std::isfinite(periods)) l = l + period_ * std::ceil(periods);
+  return std::max(l, after_l);
+}
+
+std::optional<DoubleDouble> KerrRadius::passage(double r, bool outward,
+                                                const DoubleDouble& after_l) const {
+  std::optional<DoubleDouble> found;
   for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
     const Node &from = nodes_[k], &to = nodes_[k + 1];
     const NodeSeries s = series(from);
     // A turn between two nodes divides their way.
-    const double end = to.l - from.l;
+    const auto end = double(to.l - from.l);
     const double turn = (from.speed > 0) != (to.speed > 0)
-                            ? zero_between([&](double x) { return slope(s.r, x); }, 0, end)
+                            ? zero_between([&](double x) { return s.speed(x); }, 0, end)
                             : end;
     for (const auto& [a, b] : {std::pair(0.0, turn), std::pair(turn, end)}) {
-      const double low = value(s.r, a), high = value(s.r, b);
+      const double low = s.radius(a), high = s.radius(b);
       if (!(b > a) || (high > low) != outward) continue;
       if ((low > r) == (high > r) && low != r && high != r) continue;
-      double l = from.l + zero_between([&s, r](double x) { return value(s.r, x) - r; }, a, b);
-      if (has_period() && l < after_l) l += period_ * std::ceil((after_l - l) / period_);
-      if (l >= after_l && (!found || l < *found)) found = l;
+      const auto l = first_after(
+          from.l + zero_between([&s, r](double x) { return s.radius(x) - r; }, a, b), after_l);
+      if (l && (!found || *l < *found)) found = l;
     }
+  }
+  return found;
+}
+
+std::optional<DoubleDouble> KerrRadius::next_least(const DoubleDouble& after_l) const {
+  std::optional<DoubleDouble> found;
+  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
+    const Node &from = nodes_[k], &to = nodes_[k + 1];
+    if (from.speed > 0 || !(to.speed > 0)) continue;
+    const NodeSeries s = series(from);
+    const auto l = first_after(
+        from.l + zero_between([&s](double x) { return s.speed(x); }, 0, double(to.l - from.l)),
+        after_l);
+    if (l && (!found || *l < *found)) found = l;
   }
   return found;
 }

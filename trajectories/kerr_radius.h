@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "trajectories/double_double.h"
 #include "trajectories/kerr_motion.h"
 #include "trajectories/taylor_series.h"
 
@@ -19,33 +20,44 @@ class KerrRadius {
   KerrRadius(const KerrHole& hole, const KerrMotion& motion, double r, double speed);
 
   struct Node {
-    double l, r, speed;
-    double squares = 0, angle = 0, time = 0;  // the integrals of r^2, A and (r^2 + a^2) A
+    // What is fast and far away is so within a small part of all Mino time.
+    DoubleDouble l;
+    double r, speed;
+    // The integrals of r^2, (r^2 + a^2) A and A.
+    DoubleDouble squares{}, time{};
+    double angle = 0;
   };
-  Node at(double l) const;
+  Node at(const DoubleDouble& l) const;
   const std::vector<Node>& nodes() const { return nodes_; }
 
   bool has_period() const { return period_ < HUGE_VAL; }
   double period() const { return period_; }
   // Where it begins and ends: far away, at the past horizon, at the inner one, or never.
-  double first() const { return first_; }
-  double last() const { return last_; }
+  const DoubleDouble& first() const { return first_; }
+  const DoubleDouble& last() const { return last_; }
   bool comes_out() const { return comes_out_; }  // of the past horizon
   bool ends() const { return ends_; }            // at the inner one
   double least() const { return least_; }
   double greatest() const { return greatest_; }
   // Returns the first l >= after_l at which r is passed on that leg.
-  std::optional<double> passage(double r, bool outward, double after_l) const;
+  std::optional<DoubleDouble> passage(double r, bool outward, const DoubleDouble& after_l) const;
+  // Returns the first l >= after_l at which r is least.
+  std::optional<DoubleDouble> next_least(const DoubleDouble& after_l) const;
 
  private:
   struct NodeSeries {
     Series r, square, along, time;  // along is A
-    double reach;
+    double unit, reach;             // the series go by l/unit, and are right up to l = reach
+
+    double radius(double l) const { return value(r, l / unit); }
+    double speed(double l) const { return slope(r, l / unit) / unit; }
   };
   NodeSeries series(const Node& at) const;
   Node after(const Node& at, const NodeSeries& s, double h) const;
   // Returns r' of a radius, with the sign of a value that is nearly right, which is kept next to a turn.
   double speed_at(double r, double nearly) const;
+  // Returns the first l >= after_l of an instant that comes back with the period, if any does.
+  std::optional<DoubleDouble> first_after(DoubleDouble l, const DoubleDouble& after_l) const;
   void follow(const Node& start);
   void follow_back(const Node& start);
 
@@ -55,7 +67,7 @@ class KerrRadius {
   bool circles_ = false;  // whether r stays
   double period_ = HUGE_VAL;
   Node sums_{};  // of a period
-  double first_ = -HUGE_VAL, last_ = HUGE_VAL;
+  DoubleDouble first_ = -HUGE_VAL, last_ = HUGE_VAL;
   bool comes_out_ = false, ends_ = false;
   double least_, greatest_;
 };

@@ -59,10 +59,10 @@ inline double zero_between(const std::function<double(double)>& f, double a, dou
 }
 
 // Returns the last node at or before l, or the first one.
-template <class Node>
-const Node& node_before(const std::vector<Node>& nodes, double l) {
+template <class Node, class Time>
+const Node& node_before(const std::vector<Node>& nodes, const Time& l) {
   const auto later = std::upper_bound(nodes.begin() + 1, nodes.end(), l,
-                                      [](double x, const Node& node) { return x < node.l; });
+                                      [](const Time& x, const Node& node) { return x < node.l; });
   return *(later - 1);
 }
 

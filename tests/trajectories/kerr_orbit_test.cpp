@@ -227,7 +227,7 @@ TEST(KerrOrbit, OfRainFallsStraightAlongTheLightThatFalls) {
 
 TEST(KerrBound, TurnsWhereItShould) {
   for (const double spin : {0.3, 0.9, 0.998})
-    for (const double inclination : {0.0, 0.5, 1.2, 2.0, pi}) {
+    for (const double inclination : {0.0, 0.5, 1.2, pi / 2, 2.0, pi}) {
       const KerrHole hole{spin, 0.02};
       const double least = inclination > pi / 2 ? 9.5 : 7;
       for (const double most : {least, 15.0}) {
@@ -237,14 +237,70 @@ TEST(KerrBound, TurnsWhereItShould) {
         EXPECT_NEAR(orbit.reach().first, least, 1e-9);
         EXPECT_NEAR(orbit.reach().second, most, 1e-9);
         double highest = 0;
-        for (int k = 0; k < 400; ++k) highest = std::max(highest, pi / 2 - orbit.at(5 * k).theta);
+        for (int k = 0; k < 900; ++k)
+          highest = std::max(highest, pi / 2 - orbit.at(3.71 * k).theta);
         EXPECT_NEAR(highest, inclination > pi / 2 ? pi - inclination : inclination, 2e-2);
         EXPECT_EQ(orbit.at(100).azimuth > 0, inclination <= pi / 2);
+        // It turns again after the beginning.
+        const auto next = orbit.next_periastron(1);
+        EXPECT_EQ(next.has_value(), most > least);
+        if (next) {
+          EXPECT_NEAR(orbit.at(*next).r, least, 1e-9);
+          EXPECT_NEAR(double(*next), orbit.radial_period(), 1e-6);
+          EXPECT_NEAR(double(*orbit.next_periastron(0)), 0, 1e-9);
+        }
       }
     }
   // Too close to turn.
   EXPECT_FALSE(kerr_bound({0.9L, 0}, 1.6, 15, 0.3));
   EXPECT_FALSE(kerr_bound({0.9L, 0}, 5, 15, pi));
+}
+
+// Over the axis it keeps to a plane but for what the hole drags along.
+TEST(KerrBound, GoesOverTheAxis) {
+  const KerrHole hole{1e-13L, 0};
+  const KerrOrbit orbit(hole, 8, pi / 2, kerr_bound(hole, 8, 20, pi / 2).value());
+  const Geodesic known = bound_by_turning_points(8, 20);
+  for (const double tau : {0.0, 33.0, 50.0, 333.0, 2000.0}) {
+    const OrbitPoint a = orbit.at(tau), b = known.at(tau);
+    EXPECT_NEAR(a.r, b.r, 1e-9);
+    EXPECT_NEAR(std::sin(pi / 2 - a.theta), std::sin(b.azimuth), 1e-9);
+    EXPECT_NEAR(std::sin(a.azimuth), 0, 1e-9);
+  }
+  // One step of inclination beside it changes hardly anything.
+  const KerrHole fast{0.9L, 0};
+  const KerrOrbit over(fast, 8, pi / 2, kerr_bound(fast, 8, 20, pi / 2).value());
+  const KerrOrbit beside(fast, 8, pi / 2, kerr_bound(fast, 8, 20, pi / 2 - 2e-6).value());
+  EXPECT_NEAR(over.at(300).r, beside.at(300).r, 1e-4);
+  EXPECT_NEAR(std::remainder(over.at(300).azimuth - beside.at(300).azimuth, 2 * pi), 0, 1e-4);
+}
+
+TEST(KerrOrbit, IsFollowedToTheFarEndsOfShows) {
+  for (const double theta : {0.0, 1.0, pi / 2}) {
+    const KerrHole hole{0.9L, 0};
+    const auto rest = [&](double r) {
+      return *kerr_circling(hole, r, theta, dragged_velocity(hole, r, theta));
+    };
+    for (const double gamma : {2.0, 1e3, 1e9}) {
+      for (const double sign : {-1.0, 1.0}) {
+        const double from = sign > 0 ? 10 : 1e9, to = sign > 0 ? 1e9 : 10;
+        const Celerity<RestFrame> own(sign * std::sqrt((gamma - 1) * (gamma + 1)), 0, 0);
+        const KerrOrbit orbit(
+            hole, from, theta,
+            kerr_motion(hole, from, theta, celerity_against(rest(from).celerity, own)));
+        const auto there = orbit.time_at(to, sign > 0 ? Leg::kOutward : Leg::kInward, 0);
+        ASSERT_TRUE(there) << gamma;
+        EXPECT_NEAR(orbit.at(*there).r, to, 1e-13 * to) << gamma << " " << theta;
+      }
+    }
+    const KerrOrbit fall(hole, 1e9, theta, rest(1e9));
+    EXPECT_NEAR(fall.reach().second, 1e9, 1);
+    const auto near = fall.time_at(5, Leg::kInward, 0);
+    ASSERT_TRUE(near);
+    EXPECT_NEAR(fall.at(*near).r, 5, 1e-12);
+    // E^2 = 1 - 2 r/(r^2 + a^2 cos^2 theta), but for what is dragged.
+    EXPECT_NEAR(rest(1e9).excess, -2e-9, 1e-24);
+  }
 }
 
 TEST(KerrCircling, TurnsEvenly) {

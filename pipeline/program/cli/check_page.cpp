@@ -221,8 +221,11 @@ class Page {
       const double gamma = std::hypot(1.0, e->value);
       line("fastest",
            fmt::format("{:.6g} of light's speed (Lorentz factor {:.5g}) against who is at rest "
-                       "there, ",
-                       e->value / gamma, gamma) +
+                       "there{}, ",
+                       e->value / gamma, gamma,
+                       show_.spacetime.is<SpinningHole>()
+                           ? ", that is who has no angular momentum and turns with space"
+                           : "") +
                place(*e));
     }
     if (const auto& e = r_.survey.bluest)

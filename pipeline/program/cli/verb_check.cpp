@@ -72,6 +72,7 @@ void check(const std::string& file, const std::string& out, bool json) {
   for (const ShowWarning& warning : axis.warnings()) report.warnings.push_back(warning);
   for (const ShowWarning& warning : bodies.warnings()) report.warnings.push_back(warning);
   for (const ShowWarning& warning : horizon_warnings(show)) report.warnings.push_back(warning);
+  for (const ShowWarning& warning : place_warnings(show)) report.warnings.push_back(warning);
   for (const ShowWarning& warning : body_warnings(show)) report.warnings.push_back(warning);
   for (const ShowWarning& warning : title_warnings(show)) report.warnings.push_back(warning);
   report.light = survey_light(show, renderer, grade);

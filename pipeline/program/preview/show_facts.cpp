@@ -209,6 +209,7 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
   for (const ShowWarning& warning : axis.warnings()) warnings.push_back(warning);
   for (const ShowWarning& warning : bodies.warnings()) warnings.push_back(warning);
   for (const ShowWarning& warning : horizon_warnings(show)) warnings.push_back(warning);
+  for (const ShowWarning& warning : place_warnings(show)) warnings.push_back(warning);
   for (const ShowWarning& warning : body_warnings(show)) warnings.push_back(warning);
   for (const ShowWarning& warning : title_warnings(show)) warnings.push_back(warning);
   Renderer renderer(show, 1, {}, kSurveyDetail);

@@ -147,6 +147,25 @@ std::vector<ShowWarning> horizon_warnings(const Show& show) {
   return warnings;
 }
 
+std::vector<ShowWarning> place_warnings(const Show& show) {
+  const auto* hole = std::get_if<SpinningHole>(&show.spacetime.kind());
+  if (!hole) return {};
+  const ObserverState o = observer_at(show, 0, 0);
+  const V3d seen = -column(o.sky_from_tetrad, 0);
+  const double apart = std::atan2(seen.cross(show.hole_at.v).length(), seen.dot(show.hole_at.v));
+  constexpr double kSeen = 1e-6;
+  if (apart < kSeen) return {};
+  constexpr double kDeg = 180 / std::numbers::pi;
+  const auto latitude = [&](const V3d& place) {
+    return 90 - kDeg * std::atan2(place.cross(axis_of(*hole)).length(), place.dot(axis_of(*hole)));
+  };
+  return {{0, 0, kWholeShow,
+           fmt::format("at the start the hole stands {:.3g} degrees from black_hole.at: the first "
+                       "segment begins at latitude {:.3g} of the hole, from which it is not seen "
+                       "there, but from {:.3g}",
+                       apart * kDeg, latitude(-seen) + 0.0, latitude(-show.hole_at.v) + 0.0)}};
+}
+
 NearBodies::NearBodies(const Show& show) : show_(show) {
   for (const Body& body : show.bodies) {
     const double by_light = BodySight::star_of(body).angular_radius * kBodyMagnitudeDistance;

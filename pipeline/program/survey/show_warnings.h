@@ -49,6 +49,10 @@ class NearBodies {
 // show lights is blueshifted without bound.
 std::vector<ShowWarning> horizon_warnings(const Show& show);
 
+// Returns a warning where a hole that spins is not seen at its `at` when the show begins, since the
+// first segment has a latitude of its own.
+std::vector<ShowWarning> place_warnings(const Show& show);
+
 // Returns a warning for each title
 // - that no frame shows, because it begins and ends between two,
 // - that has only invisible characters,

@@ -147,8 +147,8 @@ constexpr std::string_view kRows = R"(
 | `angular_momentum` | -1e3 to 1e3 M: about the axis, of a fall from far away | [0] |
 ## bound about a spin
 | `periastron` | above 1, at most 1e9 M: its smallest r | required |
-| `apoastron` | above 1, at most 1e9 M: its largest r; if both are alike, it stays on a sphere | required |
-| `inclination_deg` | 0 to 180: how far from the equator it goes; beyond 90 it goes against the spin; not 90 | [0] |
+| `apoastron` | above 1, at most 1e6 M: its largest r; if both are alike, it stays on a sphere | required |
+| `inclination_deg` | 0 to 180: how far from the equator it goes; beyond 90 it goes against the spin, and at 90 over both ends of the axis | [0] |
 ## thrown about a spin
 | `from_r` | above 1, at most 1e9 M: where it is thrown | required |
 | `latitude_deg` | -90 to 90: above the hole's equator | [0] |

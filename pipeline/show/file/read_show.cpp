@@ -20,17 +20,20 @@ constexpr double kGalacticCentreRaDeg = 266.405, kGalacticCentreDecDeg = -28.936
 // This mass still keeps proper times finite.  Holes as light as this have long evaporated.
 constexpr double kFewestSolarMasses = 1e-20;
 
+// With a spin in error the rest of the show is still checked as one with a hole that spins.
 double read_spin(const Section& s, double charge) {
-  const double spin = s.number("spin");
   const Item* given = s.find("spin");
-  if (!given) {
+  const auto read = s.given("spin");
+  if (given && !read) return charge > 1 ? 0 : 0.1;
+  const double spin = read.value_or(0);
+  if (spin == 0) {
     if (const Item* axis = s.find("axis"))
-      axis->fail("is that of a hole that spins; give its spin");
+      axis->fail("is that of a hole that spins; give it a spin above 0");
     return 0;
   }
-  if (charge > 1) given->fail("is not of a hole whose charge exceeds 1");
+  if (charge > 1) return given->fail("is not of a hole whose charge exceeds 1"), 0;
   constexpr double kMost = 0.999999;
-  if (spin > 0 && charge > 0 && spin * spin + charge * charge > kMost * kMost)
+  if (charge > 0 && spin * spin + charge * charge > kMost * kMost)
     given->fail(fmt::format(
         "must be at most {} with a charge of {}, got {}: the squares of both may not exceed {}, or "
         "the horizons would meet",
@@ -58,7 +61,10 @@ Spacetime read_spacetime(const Section& s) {
   const double charge = charge_given.value_or(0);
   const bool naked = s.flag("naked");
   if (!(mass.value_or(1) > 0)) {
-    if (charge > 0) s.find("charge")->fail("is of a hole, which needs a mass_solar above 0");
+    const bool charged = charge > 0, spins = s.number("spin") > 0;
+    for (const auto& [key, asked] : {std::pair("charge", charged), {"spin", spins}, {"axis", true}})
+      if (const Item* given = s.find(key); given && asked)
+        given->fail("is of a hole, which needs a mass_solar above 0");
     return FlatSpace{};
   }
   if (charge > 1 && !naked)

@@ -244,6 +244,17 @@ std::string_view why_not(const Type& type, const Spacetime& spacetime) {
   return charged ? type.not_near_charge : std::string_view();
 }
 
+// Reports keys that only a hole that spins gives a meaning.  Returns true if there are none.
+bool fits_spin(const Item& item, const Stage& stage) {
+  bool fits = true;
+  for (const char* key : {"latitude_deg", "inclination_deg", "retrograde", "dragged"})
+    if (const auto given = peek(item, key); given && !stage.spacetime.is<SpinningHole>()) {
+      given->fail("is of motion about a hole that spins; give black_hole.spin");
+      fits = false;
+    }
+  return fits;
+}
+
 // Where the horizons are one, or none, light and travellers from the other exterior come nowhere.
 bool has_region_one_alone(const Spacetime& spacetime) {
   const auto* charged = std::get_if<ChargedHole>(&spacetime.kind());
@@ -307,6 +318,7 @@ std::optional<TimedTrajectory> read_trajectory(const Item& item, const Stage& st
   if (has_region_one_alone(stage.spacetime))
     if (const auto region = peek(item, "region"); region && !is_word(*region, "I"))
       return region->fail("must be I, which a hole with a charge of 1 or more has alone");
+  if (!fits_spin(item, stage)) return std::nullopt;
   const Reader reader = stage.spacetime.is<Wormhole>()       ? kind.in_wormhole
                         : stage.spacetime.is<SpinningHole>() ? kind.about_spin
                                                              : kind.near_hole;

@@ -82,6 +82,11 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   has(complaint("black_hole: {mass_solar: 4, spin: 1}\n"), "spin must be at most 0.999999, got 1");
   has(complaint("black_hole: {mass_solar: 4, axis: {ra_deg: 1, dec_deg: 2}}\n"),
       "axis is that of a hole that spins");
+  has(complaint("black_hole: {mass_solar: 4, spin: 0, axis: {ra_deg: 1, dec_deg: 2}}\n"),
+      "axis is that of a hole that spins; give it a spin above 0");
+  for (const char* key : {"spin: 0.5", "axis: {ra_deg: 1, dec_deg: 2}"})
+    has(complaint("black_hole: {mass_solar: 0, " + std::string(key) + "}\n"),
+        "is of a hole, which needs a mass_solar above 0");
   has(complaint("black_hole: {spin: 0.5}\n"), "spin is of a hole, which needs mass_solar");
   has(complaint("black_hole: {mass_solar: 4, spin: 0.5}\ndisc: {inclination_deg: 3}\n"),
       "inclination_deg cannot be given: about a hole that spins gas lies in its equator");
@@ -98,10 +103,34 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   has(complaint_of("{type: circular, r: 3.9, retrograde: true}"), "must exceed 3.9102");
   has(complaint_of("{type: bound, periastron: 1.7, apoastron: 9}"), "periastron must be greater");
   has(complaint_of("{type: bound, periastron: 7, apoastron: 6}"), "at least the periastron, 7");
-  has(complaint_of("{type: bound, periastron: 7, apoastron: 9, inclination_deg: 90}"),
-      "inclination_deg must not be 90");
+  has(complaint_of("{type: bound, periastron: 7, apoastron: 2e6}"), "apoastron must be at most");
   has(complaint_of("{type: infall, from_r: 9, angular_momentum: 90}"), "is too much for a fall");
+  for (const char* key : {"latitude_deg: 9", "inclination_deg: 9", "retrograde: true"})
+    has(complaint("black_hole: {mass_solar: 4}\ntimeline:\n  - {duration_s: 2, trajectory: {type: "
+                  "circular, r: 9, " +
+                  std::string(key) + "}}\n"),
+        "is of motion about a hole that spins; give black_hole.spin");
   has(complaint_of("{type: path, keyframes: []}"), "the types are static, circular, bound");
+}
+
+// One mistake is told once.
+TEST_F(SpinShow, ASpinInErrorLeavesTheRestAlone) {
+  for (const char* more : {"", ", charge: 0.4"}) {
+    const std::string told = complaint("black_hole: {mass_solar: 4, spin: 2" + std::string(more) +
+                                       "}\ntimeline:\n  - {duration_s: 2, trajectory: {type: "
+                                       "circular, r: 9, retrograde: true}}\n");
+    EXPECT_NE(told.find("spin must be at most 0.999999, got 2"), std::string::npos) << told;
+    EXPECT_EQ(told.find('\n'), std::string::npos) << told;
+  }
+}
+
+TEST_F(SpinShow, MarksThePeriastron) {
+  const Show s = show_with("spin: 0.9",
+                           "  - {duration_s: turn, trajectory: {type: bound, periastron: 6, "
+                           "apoastron: 10, from_r: 9, rate_m_per_s: 40}}\n"
+                           "  - {duration_s: 2, trajectory: {type: continue, rate_m_per_s: 20}}\n"
+                           "markers: {turn: periastron}\n");
+  EXPECT_NEAR(observer_at(s, 0, 1).r, 6, 1e-9);
 }
 
 }  // namespace

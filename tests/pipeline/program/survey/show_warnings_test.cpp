@@ -66,6 +66,27 @@ TEST_F(AxisStarWarnings, WhatTheShowLeavesInTheDarkDoesNotBlind) {
   EXPECT_TRUE(of("Sirius", "{type: static, r: 14}", "effects: {amplification: none}\n").empty());
 }
 
+class PlaceWarnings : public ShowFile {
+ protected:
+  std::vector<ShowWarning> of(const std::string& hole, const std::string& trajectory) {
+    return place_warnings(read("black_hole: {mass_solar: 4e6, " + hole +
+                               "}\ntimeline:\n  - {duration_s: 3, trajectory: " + trajectory +
+                               "}\n"));
+  }
+};
+
+TEST_F(PlaceWarnings, AHoleThatIsSeenElsewhereIsTold) {
+  const std::string axis = "axis: {ra_deg: 0, dec_deg: 90}, at: {ra_deg: 40, dec_deg: 30}";
+  const auto warnings = of("spin: 0.5, " + axis, "{type: circular, r: 9}");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0].text, HasSubstr("stands 30 degrees from black_hole.at"));
+  EXPECT_THAT(warnings[0].text, HasSubstr("begins at latitude 0 of the hole"));
+  EXPECT_THAT(warnings[0].text, HasSubstr("but from -30"));
+  EXPECT_TRUE(of("spin: 0.5, " + axis, "{type: static, r: 9, latitude_deg: -30}").empty());
+  EXPECT_TRUE(of("spin: 0.5", "{type: circular, r: 9}").empty());
+  EXPECT_TRUE(of("at: {ra_deg: 40, dec_deg: 30}", "{type: circular, r: 9}").empty());
+}
+
 // Warnings of a title in a dome of 256 pixels, of which each is 0.7 degrees, at 10 frames a second.
 class TitleWarnings : public ShowFile {
  protected:
