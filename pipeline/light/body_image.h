@@ -2,6 +2,7 @@
 // place.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -31,6 +32,7 @@ struct BodyMotion {
   double begin, end;  // may be infinite
   // A tau at which the light is likely to have left, if one is known.  It saves time alone.
   std::optional<double> guess{};
+  double least_r = 0, most_r = HUGE_VAL;  // M; between these it stays
 };
 
 struct BodyImage {
@@ -47,6 +49,10 @@ struct BodyImage {
   double angle_per_length, angle_per_psi;  // PlaceImage's
   V3d ray;  // unit: the direction in which the light left, in the frame that `celerity` is against
   V3d celerity;
+  double mino = 0;  // of light near a hole that spins (kerr_event.h)
+
+  // How far the light has come, as discs and gas count it.
+  double way() const { return mino > 0 ? mino : psi; }
 };
 
 // Returns the image of an order.  Order 0 is the direct image, and odd orders are seen on the other

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/light/kerr_body_image.h"
 #include "pipeline/light/kerr_points.h"
+#include "pipeline/light/kerr_sphere_image.h"
+#include "pipeline/light/kerr_view.h"
 
 namespace domefall {
 namespace {
@@ -13,22 +16,6 @@ using std::numbers::pi;
 
 // The corners of a border.
 constexpr int kCorners = 4096;
-
-// The unit vectors of view in which delta grows, and across that eta.  n is minus the photon's.
-struct ViewAxes {
-  V3d by_delta, across;
-
-  ViewAxes(double delta, double eta) {
-    const double c = std::cos(delta), s = std::sin(delta), ce = std::cos(eta), se = std::sin(eta);
-    by_delta = {s, -c * ce, -c * se};
-    across = {0, se, -ce};
-  }
-};
-
-V3d direction_of(double delta, double eta) {
-  const double s = std::sin(delta);
-  return {-std::cos(delta), -s * std::cos(eta), -s * std::sin(eta)};
-}
 
 // Fills in the derivative by its singular values.
 void set_derivative(const V3d& d, const V3d& e, const ViewAxes& view, const V3d& sky,
@@ -151,7 +138,7 @@ std::vector<SkyBorder> KerrLens::borders() const {
     // Counter-clockwise about -R, as seen from where the directions begin.
     for (int k = 0; k < kCorners; ++k) {
       const double eta = -2 * pi * k / kCorners;
-      corners.push_back(direction_of(one->edge(eta).delta, eta));
+      corners.push_back(kerr_view(one->edge(eta).delta, eta));
     }
     const bool own = one->sky() == KerrEdge::kSilhouette;
     borders.push_back({corners, !own, own ? SkyRegion::kI : SkyRegion::kIII});
@@ -175,6 +162,25 @@ std::optional<GasView> KerrLens::gas_view() const {
                  [edge](double azimuth) { return edge->at(azimuth + pi).delta; }};
 }
 
+std::vector<BodyImage> KerrLens::body_images(double null_time, const BodyMotion& motion,
+                                             double radius) const {
+  return kerr_body_images(charts_->at, null_time, motion, radius);
+}
+
+std::optional<BodyImage> KerrLens::body_image(double null_time, const BodyMotion& motion, int order,
+                                              double radius) const {
+  const std::vector<BodyImage> images = body_images(null_time, motion, radius);
+  const auto k = static_cast<std::size_t>(order);
+  return k < images.size() ? std::optional(images[k]) : std::nullopt;
+}
+
+std::vector<SpherePiece> KerrLens::sphere(double null_time, const BodyMotion& motion,
+                                          const BodyImage& image,
+                                          std::span<const BodyImage> earlier, double radius,
+                                          const std::function<double(const V3d&)>& spacing) const {
+  return kerr_image_of_sphere(charts_->at, null_time, motion, image, earlier, radius, spacing);
+}
+
 // From the nearest of a coarse grid of rays, by Newton's method on exact rays.
 V3d KerrLens::primary_image(const V3d& source) const {
   const V3d place(source.x * sine_ + source.y * cosine_, source.z,
@@ -191,7 +197,7 @@ V3d KerrLens::primary_image(const V3d& source) const {
       const double near = ray.sky.dot(place) + 0.02 * d;
       if (near > best) best = near, delta = d, eta = e;
     }
-  V3d n = direction_of(delta, eta);
+  V3d n = kerr_view(delta, eta);
   for (int step = 0; step < 30; ++step) {
     delta = std::atan2(std::hypot(n.y, n.z), -n.x), eta = std::atan2(-n.z, -n.y);
     const TracedKerr ray = trace(delta, eta);

@@ -39,6 +39,15 @@ class KerrLens : public Lens {
     return charts_->plane->plane(charts_->at, rings);
   }
   std::optional<GasView> gas_view() const override;
+  bool lists_bodies() const override { return true; }
+  std::vector<BodyImage> body_images(double null_time, const BodyMotion& motion,
+                                     double radius) const override;
+  std::optional<BodyImage> body_image(double null_time, const BodyMotion& motion, int order,
+                                      double radius) const override;
+  std::vector<SpherePiece> sphere(double null_time, const BodyMotion& motion,
+                                  const BodyImage& image, std::span<const BodyImage> earlier,
+                                  double radius,
+                                  const std::function<double(const V3d&)>& spacing) const override;
 
  private:
   struct Seen;

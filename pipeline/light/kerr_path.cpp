@@ -268,6 +268,34 @@ typename KerrPath<T>::Sum KerrPath<T>::between(double from, double to, double si
 }
 
 template <class T>
+typename KerrPath<T>::Sum KerrPath<T>::up_to(double y, double sign) const {
+  Sum sum = between(first(), y, sign);
+  if constexpr (std::is_same_v<T, Dual>) {
+    // The start moves, too.
+    const Sum start = rates(first(), sign, true);
+    const auto moved = [&](Dual& of, double rate) {
+      of = of - Dual(0, rate * first_.d, rate * first_.e);
+    };
+    moved(sum.mino, start.mino.v);
+    moved(sum.angle, start.angle.v);
+    moved(sum.time, start.time.v);
+  }
+  return sum;
+}
+
+template <class T>
+void KerrPath<T>::move_to(double target, double& y, double& mino) const {
+  for (int i = 0; i < 60; ++i) {
+    const double step = (target - mino) / place(y).by_y;
+    const double next = std::clamp(y + step, first(), (y + 7 * last()) / 8);
+    mino += mino_between(y, next);
+    const bool there = std::abs(next - y) <= 1e-15 * std::max(1.0, std::abs(next));
+    y = next;
+    if (there) break;
+  }
+}
+
+template <class T>
 double KerrPath<T>::mino_between(double from, double to) const {
   double sum = 0;
   over_panels(from, to, of_mino_,

@@ -46,8 +46,13 @@ class KerrPath {
   Sum whole() const;
   // Returns that from one place to another one.  `sign` is E's.
   Sum between(double from, double to, double sign) const;
+  // The same from the start to a place, with the derivatives at that y.
+  Sum up_to(double y, double sign) const;
+  T inverse_radius(double y) const { return node(y).w; }
   // Returns only the Mino time.
   double mino_between(double from, double to) const;
+  // Moves on to the place of a Mino time, from one at `y` whose time is `mino`, by Newton's method.
+  void move_to(double target, double& y, double& mino) const;
 
   struct Place {
     double r, speed;  // r'/|E|, of the photon

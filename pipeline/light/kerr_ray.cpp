@@ -10,32 +10,6 @@
 namespace domefall {
 namespace {
 
-template <class T>
-T dual_number(long double v, long double by_delta = 0, long double by_eta = 0) {
-  if constexpr (std::is_same_v<T, Dual>)
-    return {static_cast<double>(v), static_cast<double>(by_delta), static_cast<double>(by_eta)};
-  else
-    return static_cast<double>(v);
-}
-
-// Returns N and its equation at the observer, back in time.
-template <class T>
-KerrSphere<T> sphere_of(const KerrStart& start) {
-  const long double a = start.at.hole.spin;
-  const long double sine = start.sine, cosine = start.cosine;
-  const Scaled &k = start.kappa, &mu = start.mu, &p = start.polar, &f = start.azimuthal;
-  KerrSphere<T> sphere{};
-  sphere.spin = static_cast<double>(a);
-  const auto derivative = [&](long double Scaled::*by) { return 2 * (k.v * (k.*by) + (mu.*by)); };
-  sphere.c = dual_number<T>(k.v * k.v + 2 * mu.v + a * a * (sine - cosine) * (sine + cosine),
-                            derivative(&Scaled::by_delta), derivative(&Scaled::by_eta));
-  sphere.place = {dual_number<T>(sine), dual_number<T>(0), dual_number<T>(cosine)};
-  sphere.speed = {dual_number<T>(-cosine * p.v, -cosine * p.by_delta, -cosine * p.by_eta),
-                  dual_number<T>(-f.v, -f.by_delta, -f.by_eta),
-                  dual_number<T>(sine * p.v, sine * p.by_delta, sine * p.by_eta)};
-  return sphere;
-}
-
 // Returns pi over the Mino time, with E = 1, of half a turn of the latitude.  Of u = cos(theta) it is
 //
 //     u'^2 = Q - b u^2 - a^2 u^4    Q = kappa^2 - g^2    b = kappa^2 + 2 a g    g = L - a
@@ -60,7 +34,7 @@ template <class T>
 void follow_to_sky(const KerrStart& start, const KerrRoots& roots, double ratio, TracedKerr& out) {
   const KerrPath<T> path(start, roots);
   const typename KerrPath<T>::Sum whole = path.whole();
-  KerrSphere<T> sphere = sphere_of<T>(start);
+  KerrSphere<T> sphere = kerr_sphere_of<T>(start);
   sphere.follow(value(whole.mino), false);
   out.mino = value(whole.mino) / std::abs(out.energy);
   out.turns = sphere.turns;
@@ -132,7 +106,7 @@ std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection&
                                        std::size_t most) {
   const KerrStart start = kerr_start(at, direction);
   const KerrPath<double> path(start, kerr_roots(start));
-  KerrSphere<double> sphere = sphere_of<double>(start);
+  KerrSphere<double> sphere = kerr_sphere_of<double>(start);
   const double whole = path.mino_between(path.first(), path.last());
   sphere.follow(whole, true);
   const double sign = start.mirrored ? -1 : 1, energy = static_cast<double>(start.energy);
@@ -144,14 +118,7 @@ std::vector<KerrPassage> kerr_passages(const KerrPlace& at, const KerrDirection&
   for (const auto& crossing : sphere.crossings) {
     if (passages.size() == most) break;
     const double before = y;
-    for (int i = 0; i < 60; ++i) {
-      const double step = (crossing.mino - mino) / path.place(y).by_y;
-      const double next = std::clamp(y + step, path.first(), (y + 7 * path.last()) / 8);
-      mino += path.mino_between(y, next);
-      const bool there = std::abs(next - y) <= 1e-15 * std::max(1.0, std::abs(next));
-      y = next;
-      if (there) break;
-    }
+    path.move_to(crossing.mino, y, mino);
     if (y >= path.last()) break;  // on the past horizon, to the last digit
     const KerrPath<double>::Sum more = path.between(before, y, sign);
     sum.angle += more.angle, sum.time += more.time;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace domefall {
 namespace {
@@ -92,7 +93,32 @@ double zero_between(const PowerSeries<double>& u, double low, double high) {
   return x;
 }
 
+template <class T>
+T dual_number(long double v, long double by_delta = 0, long double by_eta = 0) {
+  if constexpr (std::is_same_v<T, Dual>)
+    return {static_cast<double>(v), static_cast<double>(by_delta), static_cast<double>(by_eta)};
+  else
+    return static_cast<double>(v);
+}
+
 }  // namespace
+
+template <class T>
+KerrSphere<T> kerr_sphere_of(const KerrStart& start) {
+  const long double a = start.at.hole.spin;
+  const long double sine = start.sine, cosine = start.cosine;
+  const Scaled &k = start.kappa, &mu = start.mu, &p = start.polar, &f = start.azimuthal;
+  KerrSphere<T> sphere{};
+  sphere.spin = static_cast<double>(a);
+  const auto derivative = [&](long double Scaled::*by) { return 2 * (k.v * (k.*by) + (mu.*by)); };
+  sphere.c = dual_number<T>(k.v * k.v + 2 * mu.v + a * a * (sine - cosine) * (sine + cosine),
+                            derivative(&Scaled::by_delta), derivative(&Scaled::by_eta));
+  sphere.place = {dual_number<T>(sine), dual_number<T>(0), dual_number<T>(cosine)};
+  sphere.speed = {dual_number<T>(-cosine * p.v, -cosine * p.by_delta, -cosine * p.by_eta),
+                  dual_number<T>(-f.v, -f.by_delta, -f.by_eta),
+                  dual_number<T>(sine * p.v, sine * p.by_delta, sine * p.by_eta)};
+  return sphere;
+}
 
 template <class T>
 void KerrSphere<T>::follow(double mino, bool with_crossings) {
@@ -132,5 +158,7 @@ void KerrSphere<T>::follow(double mino, bool with_crossings) {
 
 template struct KerrSphere<double>;
 template struct KerrSphere<Dual>;
+template KerrSphere<double> kerr_sphere_of<double>(const KerrStart& start);
+template KerrSphere<Dual> kerr_sphere_of<Dual>(const KerrStart& start);
 
 }  // namespace domefall

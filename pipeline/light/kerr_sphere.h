@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/light/dual.h"
+#include "pipeline/light/kerr_start.h"
 
 namespace domefall {
 
@@ -33,6 +34,10 @@ struct KerrSphere {
   // Follows N over a Mino time, which is exact for its value only.
   void follow(double mino, bool with_crossings);
 };
+
+// Returns N and its equation at the observer, back in time.
+template <class T>
+KerrSphere<T> kerr_sphere_of(const KerrStart& start);
 
 extern template struct KerrSphere<double>;
 extern template struct KerrSphere<Dual>;

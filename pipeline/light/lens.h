@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "pipeline/light/light_path.h"
 #include "pipeline/light/plane_rays.h"
 #include "pipeline/light/sky_points.h"
+#include "pipeline/light/sphere_image.h"
 #include "pipeline/spacetime/regions.h"
 #include "trajectories/celerity.h"
 #include "trajectories/directions.h"
@@ -151,6 +154,15 @@ class Lens {
   }
   // The same of a place outside the hole, at psi radians from R (seen_place).
   virtual std::optional<SeenPlace> place(double, double, double) const { return std::nullopt; }
+  // Some lenses find all images of a body of a radius together, the direct one first (kerr_body_image.h),
+  // and the pieces of one of them, of which those of `earlier` are already there (kerr_sphere_image.h).
+  virtual bool lists_bodies() const { return false; }
+  virtual std::vector<BodyImage> body_images(double, const BodyMotion&, double) const { return {}; }
+  virtual std::vector<SpherePiece> sphere(double, const BodyMotion&, const BodyImage&,
+                                          std::span<const BodyImage>, double,
+                                          const std::function<double(const V3d&)>&) const {
+    return {};
+  }
 
   // Finds where rays meet a plane through the hole.  Nothing is returned where that is not known.
   virtual std::unique_ptr<const PlaneRays> plane(const PlaneRings&, double) const {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipeline/light/body_image.h"
-#include "pipeline/light/hole_optics.h"
+#include "pipeline/light/sky_points.h"
 
 namespace domefall {
 

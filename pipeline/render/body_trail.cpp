@@ -175,7 +175,8 @@ void BodyTrails::add_piece(Trail& trail, const Node& node, double share) const {
                          ? node.sight->moved_to(now_, piece.at)
                          : piece.at;
     moved.amplification *= share;
-    trail.pieces.push_back({moved, node.image->traced.psi, share * piece.solid_angle, piece.tint});
+    trail.pieces.push_back(
+        {moved, node.image->traced.way(), share * piece.solid_angle, piece.tint});
   }
 }
 

@@ -30,7 +30,7 @@ class BodyTrails {
   // A Piece is a part of a trail in the tetrad of the scene's instant.
   struct Piece {
     SkyImage image;
-    double psi;              // radians that its light has swept
+    double psi;              // BodyImage::way
     double solid_angle = 0;  // BodySight::Piece's, as the mean over the time
     WorkingRgb tint{1, 1, 1};
   };

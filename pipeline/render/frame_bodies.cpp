@@ -34,9 +34,9 @@ class BodyPainter {
     const std::vector<BodySight::Piece> pieces =
         sight().pieces(body, image, scene_.point_spread.least());
     for (const BodySight::Piece& piece : pieces)
-      take(piece.at, image.traced.psi, piece.tint, piece.solid_angle);
+      take(piece.at, image.traced.way(), piece.tint, piece.solid_angle);
     if (!pieces.empty()) return finder_.append_pieces(star, left_, images_.light, tints_);
-    take(image.at, image.traced.psi, {1, 1, 1}, 0);
+    take(image.at, image.traced.way(), {1, 1, 1}, 0);
     return !left_.empty() && finder_.append_image(star, left_[0], images_.light);
   }
 

@@ -141,6 +141,8 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
     common.add(static_cast<int>(body.trajectory.index())).add(static_cast<int>(start.tetrad));
     for (const double x : {start.r, start.celerity.x, start.celerity.z})
       common.add(rounded_for_key(x));
+    if (show.spacetime.is<SpinningHole>())
+      for (const double x : {start.theta, start.celerity.y}) common.add(rounded_for_key(x));
     for (const double x :
          {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
           body.temperature, body.magnitude, body.radius, body.granulation})

@@ -105,7 +105,7 @@ std::vector<BodyAtPixel> PixelProbe::bodies() const {
       const auto image = sight.image(body, order);
       if (!image) break;
       const BodySight::Seen seen = sight.seen(image->at);
-      const double left = scene_->left_before(seen.direction, image->traced.psi, width_);
+      const double left = scene_->left_before(seen.direction, image->traced.way(), width_);
       const auto pieces = sight.pieces(body, *image, sigma);
       const double magnitude = sight.seen_v(body, image->at, pieces) - 2.5 * std::log10(left);
       faint = magnitude <= kFaintestSeen ? 0 : faint + 1;

@@ -35,6 +35,33 @@ double last_proper_time(const Spacetime& spacetime, const Body& body) {
   return end - double(body.start);
 }
 
+// About a hole that spins `normal` is its axis.
+BodyMotion motion_about_spin(const Body& body, const M33d& sky_from_tetrad) {
+  const V3d axis = apply_transposed(sky_from_tetrad, body.normal.v);
+  const V3d node = apply_transposed(sky_from_tetrad, body.node.v), onward = axis.cross(node);
+  const auto point = [&body](double tau) { return point_at(body.trajectory, body.start + tau); };
+  const OrbitPoint start = point(0);
+  const auto [low, high] = reach(body.trajectory);
+  return {[=](double tau) {
+            const OrbitPoint now = point(tau);
+            const double phi = body.azimuth + (now.azimuth - start.azimuth);
+            const V3d out = node * std::cos(phi) + onward * std::sin(phi), around = axis.cross(out);
+            const double sine = std::sin(now.theta), cosine = std::cos(now.theta);
+            const V3d place = out * sine + axis * cosine, south = out * cosine - axis * sine;
+            return BodyPoint{place,
+                             now.r,
+                             body.null_time + double(now.null_time - start.null_time),
+                             gamma_of(now.celerity),
+                             now.celerity.x,
+                             place.cross(south * now.celerity.y + around * now.celerity.z) * now.r};
+          },
+          first_proper_time(body),
+          lifetime(body.trajectory) - double(body.start),
+          {},
+          low,
+          high};
+}
+
 }  // namespace
 
 M33d own_axes(const Body& body) {
@@ -48,6 +75,7 @@ bool sees_bodies(const ObserverState& observer) {
 }
 
 BodyMotion motion_of(const Spacetime& spacetime, const Body& body, const M33d& sky_from_tetrad) {
+  if (spacetime.is<SpinningHole>()) return motion_about_spin(body, sky_from_tetrad);
   const V3d normal = apply_transposed(sky_from_tetrad, body.normal.v);
   const V3d node = apply_transposed(sky_from_tetrad, body.node.v);
   const V3d onward = normal.cross(node);

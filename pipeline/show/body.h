@@ -36,7 +36,8 @@ struct Body {
   Trajectory trajectory = CircularOrbit{10};  // static, circular or free fall
   bool backward = false;                      // against the sense of its axis
   // The body goes counter-clockwise about the axis `normal`, and its azimuth counts from the
-  // direction `node` in its plane.  Both are directions on the sky.
+  // direction `node` in its plane.  Both are directions on the sky.  About a hole that spins they are its
+  // axis and a direction in its equator, and the trajectory says how the orbit lies to these.
   SkyDirection normal{V3d(0, 0, 1)}, node{V3d(1, 0, 0)};
   // `start` and `azimuth` (radians) are those of the body at the instant when its v = t + r*,
   // counted from the show's start, is `null_time` (M).

@@ -71,7 +71,7 @@ void append_bodies(const Show& show, const FrameState& state, const LightLeft& l
         const BodySight::Seen seen = sight.seen(image->at);
         const double magnitude =
             seen_magnitude(show.effects, body.magnitude, body.temperature,
-                           seen.brightening * left_of(left, seen.direction, image->traced.psi),
+                           seen.brightening * left_of(left, seen.direction, image->traced.way()),
                            seen.frequency_ratio);
         if (magnitude <= kFaintestNamedImage)
           found.push_back(named_image(body.name, order, seen.direction, magnitude));

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pipeline/light/aberration.h"
+#include "pipeline/light/kerr_body_image.h"
 #include "pipeline/light/sphere_surface.h"
 #include "pipeline/render/rays/view_tracer.h"
 #include "pipeline/render/scene/body_surface.h"
@@ -46,9 +47,28 @@ double BodySight::radius_of(const Body& body) const {
 
 std::optional<BodyImage> BodySight::traced(const Body& body, int order,
                                            const std::optional<double>& emitted) const {
+  if (lens_->lists_bodies()) {
+    const std::vector<BodyImage>& images = listed(body);
+    const auto k = static_cast<std::size_t>(order);
+    return k < images.size() ? std::optional(images[k]) : std::nullopt;
+  }
   BodyMotion motion = motion_of(observer_.spacetime, body, observer_.sky_from_tetrad);
   motion.guess = emitted;
   return lens_->body_image(observer_.null_time, motion, order, radius_of(body));
+}
+
+const std::vector<BodyImage>& BodySight::listed(const Body& body) const {
+  const std::scoped_lock lock(mutex_);
+  const auto known = listed_.find(body.name);
+  if (known != listed_.end()) return known->second;
+  const BodyMotion motion = motion_of(observer_.spacetime, body, observer_.sky_from_tetrad);
+  return listed_
+      .emplace(body.name, lens_->body_images(observer_.null_time, motion, radius_of(body)))
+      .first->second;
+}
+
+double BodySight::size_of(const BodyImage& image, double radius) const {
+  return lens_->lists_bodies() ? kerr_size_of_sphere(image, radius) : size_of_sphere(image, radius);
 }
 
 int BodySight::first_order(const Body& body) const {
@@ -68,7 +88,9 @@ bool BodySight::is_too_near(const Body& body) const {
                           direct->proper_time, radius_of(body));
 }
 
-bool BodySight::is_traced() const { return !observer_.spacetime.is<Wormhole>(); }
+bool BodySight::is_traced() const {
+  return !observer_.spacetime.is<Wormhole>() && !lens_->lists_bodies();
+}
 
 std::optional<BodySight::Image> BodySight::image(const Body& body, int order,
                                                  const std::optional<double>& emitted) const {
@@ -87,7 +109,7 @@ std::vector<BodySight::Piece> BodySight::pieces(const Body& body, const Image& i
   // its mean, which is 3e-4 here.
   constexpr double kSpacing = 1.5;
   const double radius = radius_of(body), whole = radius / kBodyMagnitudeDistance,
-               size = size_of_sphere(image.traced, radius);
+               size = size_of(image.traced, radius);
   const BodySurface surface(body, image.traced, observer_);
   // A small sphere with a surface has a phase all the same.
   constexpr double kLeastPieces = 16;
@@ -123,6 +145,18 @@ RingedSphere BodySight::sphere(const Body& body, const BodyImage& image, const B
                                double error,
                                const std::function<double(const V3d&)>& spacing) const {
   const double radius = radius_of(body), half = image.angle_per_length * radius;
+  if (lens_->lists_bodies()) {
+    // Small ones before are points, which are no part of an arc.
+    std::vector<BodyImage> earlier;
+    for (const BodyImage& one : listed(body)) {
+      if (one.direction == image.direction) break;
+      if (size_of(one, radius) > spacing(one.direction)) earlier.push_back(one);
+    }
+    return {lens_->sphere(observer_.null_time,
+                          motion_of(observer_.spacetime, body, observer_.sky_from_tetrad), image,
+                          earlier, radius, spacing),
+            {}};
+  }
   const double part = radius / image.r;
   // Two orders that meet in a ring are drawn in one way.
   const bool in_ring = image.psi > 1 && std::abs(std::sin(image.psi)) < 2 * part;

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipeline/light/body_image.h"
@@ -88,6 +91,9 @@ class BodySight {
  private:
   std::optional<BodyImage> traced(const Body& body, int order,
                                   const std::optional<double>& emitted = {}) const;
+  // All images of a body, of a lens that lists them, which are found once.
+  const std::vector<BodyImage>& listed(const Body& body) const;
+  double size_of(const BodyImage& image, double radius) const;
   // Says whether large spheres are traced place by place.
   bool is_traced() const;
   RingedSphere sphere(const Body& body, const BodyImage& image, const BodySurface& surface,
@@ -98,6 +104,8 @@ class BodySight {
   Viewer viewer_;
   std::shared_ptr<const Lens> lens_;
   double least_radius_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::string, std::vector<BodyImage>> listed_;  // by their names
 };
 
 // Says whether a body of this magnitude is bright enough to be seen in a frame with these settings,

@@ -36,6 +36,14 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
       way->fail("is a circular orbit about a hole; in a wormhole give a trajectory");
       return false;
     }
+    if (const auto* hole = std::get_if<SpinningHole>(&to.spacetime.kind())) {
+      const auto r = read_number(*way, s.range("r").above(kerr_light_circle(hole->kerr, true)));
+      const auto circle = r ? kerr_circle(hole->kerr, *r, true) : std::nullopt;
+      if (circle)
+        body.trajectory =
+            KerrCircling{hole->kerr, *r, std::numbers::pi / 2, circle->angle / circle->time};
+      return circle.has_value();
+    }
     const auto r = read_number(*way, s.range("r"));
     if (r) body.trajectory = CircularOrbit{*r};
     return r.has_value();
@@ -69,6 +77,20 @@ bool read_way(const Section& s, const Show& to, Lookup& lookup, Body& body) {
   body.backward = read->placement.backward;
   body.start = read->timing.tau_begin;
   return true;
+}
+
+// About a hole that spins the orbit says how it lies to the hole's axis.
+OrbitPlane read_body_plane(const Section& s, const Show& to) {
+  const auto* hole = std::get_if<SpinningHole>(&to.spacetime.kind());
+  if (!hole) return read_orbit_plane(s, to);
+  for (const std::string_view key : {"inclination_deg", "node_deg"})
+    if (const Item* given = s.find(key))
+      given->fail(
+          "is that of a plane, which orbits about a spin do not keep; give inclination_deg or "
+          "latitude_deg in its trajectory");
+  const V3d axis = axis_of(*hole);
+  const M33d first = place_tetrad(to.hole_at, to.heading, 0);
+  return {{column(moved_about(axis, first, std::numbers::pi / 2, 0), 0)}, {axis}};
 }
 
 // The elements are those of visual binaries, and of the stars about Sagittarius A* (Gillessen
@@ -215,13 +237,15 @@ Body read_body(const std::string& name, const Item& item, const Show& to,
   if (const Item* elements = s.find("elements")) {
     if (to.spacetime.is<Wormhole>())
       elements->fail("is an orbit about a hole; in a wormhole give a trajectory");
+    if (to.spacetime.is<SpinningHole>())
+      elements->fail("is an orbit about a hole without spin; give a trajectory");
     for (const std::string_view key :
          {"r", "trajectory", "begins_m", "inclination_deg", "node_deg", "azimuth_deg"})
       s.one_of({"elements", key});
     read_elements(*elements, to, year, body);
   } else {
     read_way(s, to, lookup, body);
-    const OrbitPlane plane = read_orbit_plane(s, to);
+    const OrbitPlane plane = read_body_plane(s, to);
     body.node = plane.node, body.normal = plane.normal;
     body.azimuth = s.angle("azimuth_deg");
     const auto begins = s.given("begins_m");
@@ -262,6 +286,7 @@ std::optional<BodyRing> read_ring(const Item& item, const std::vector<BodyRing>&
 // Reads one ring, or a list of them.
 void read_rings(const Item& item, const Spacetime& spacetime, Body& body) {
   if (spacetime.is<Wormhole>()) item.fail("are about bodies near a hole");
+  if (spacetime.is<SpinningHole>()) item.fail("are not drawn about a hole that spins");
   const auto add = [&](const Item& one) {
     if (const auto ring = read_ring(one, body.rings)) body.rings.push_back(*ring);
   };
@@ -319,10 +344,6 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
   const Item* list = show.find("bodies");
   if (list == nullptr) return bodies;
   if (to.spacetime.is_flat()) list->fail("need a black hole: give the show black_hole.mass_solar");
-  if (to.spacetime.is<SpinningHole>()) {
-    list->fail("need a hole without spin: bodies about one that spins are not drawn yet");
-    return {};
-  }
   if (!list->node.IsMap()) {
     list->fail("must be a map of names and bodies, e.g. {beacon: {r: 10}}, got " + kind_of(*list));
     return bodies;

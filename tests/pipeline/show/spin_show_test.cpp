@@ -1,8 +1,10 @@
 // Shows about a hole that spins.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "pipeline/show/attitude.h"
+#include "pipeline/show/body.h"
 #include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
@@ -73,6 +75,34 @@ TEST_F(SpinShow, GoesOnFromSegmentToSegment) {
   EXPECT_LT(motion_direction(at(s, 11)).x, 0);
 }
 
+TEST_F(SpinShow, HasBodiesOnItsOrbits) {
+  const Show s = read(
+      "black_hole: {mass_solar: 4e6, spin: 0.9, at: {ra_deg: 30, dec_deg: 10}}\n"
+      "bodies:\n  circles: {r: 8, azimuth_deg: 90}\n"
+      "  bound: {trajectory: {type: bound, periastron: 6, apoastron: 9, inclination_deg: 40}}\n"
+      "  rests: {trajectory: {type: static, r: 5, latitude_deg: 30}}\n"
+      "timeline: [{duration_s: 2, trajectory: {type: static, r: 20, latitude_deg: 30}}]\n");
+  ASSERT_EQ(s.bodies.size(), 3u);
+  const auto motion = [&](std::size_t k) { return motion_of(s.spacetime, s.bodies[k], M33d()); };
+  // Azimuths count from the observer's first place, about the axis.
+  const BodyPoint circles = motion(0).at(0);
+  EXPECT_LT((circles.direction - axis(s).cross(-s.hole_at.v)).length(), 1e-12);
+  EXPECT_NEAR(circles.direction.dot(circles.celerity()), circles.radial, 1e-12);
+  EXPECT_GT((circles.direction.cross(circles.celerity())).dot(axis(s)), 0.3);
+  EXPECT_NEAR(circles.gamma * circles.gamma - circles.celerity().length2(), 1, 1e-12);
+  EXPECT_EQ(motion(0).least_r, 8);
+  const BodyMotion bound = motion(1);
+  double most = 0;
+  for (int tau = 0; tau < 200; ++tau) {
+    const BodyPoint at = bound.at(tau);
+    most = std::max(most, std::abs(at.direction.dot(axis(s))));
+    EXPECT_GE(at.r, 6 - 1e-9);
+    EXPECT_LE(at.r, 9 + 1e-9);
+  }
+  EXPECT_NEAR(most, std::sin(40 * std::numbers::pi / 180), 1e-2);
+  EXPECT_NEAR(motion(2).at(3).direction.dot(axis(s)), 0.5, 1e-12);
+}
+
 TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   const auto has = [](const std::string& told, const char* text) {
     EXPECT_NE(told.find(text), std::string::npos) << told;
@@ -94,8 +124,15 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
       "inner_r must be at least 7.5545");
   has(complaint("black_hole: {mass_solar: 4}\ndisc: {retrograde: true}\n"),
       "retrograde needs a hole that spins");
-  has(complaint("black_hole: {mass_solar: 4, spin: 0.5}\nbodies: {a: {r: 9}}\n"),
-      "bodies about one that spins are not drawn yet");
+  const auto body = [&](const std::string& keys) {
+    return complaint("black_hole: {mass_solar: 4, spin: 0.9}\nbodies: {a: {" + keys + "}}\n");
+  };
+  has(body("r: 1.5"), "must exceed 1.5578");
+  has(body("r: 9, inclination_deg: 5"), "which orbits about a spin do not keep");
+  has(body("elements: {}"), "an orbit about a hole without spin; give a trajectory");
+  has(body("r: 9, radius: 1, rings: {inner: 2, outer: 3}"), "not drawn about a hole that spins");
+  has(body("trajectory: {type: static, r: 1.9}"), "within the ergosphere nothing rests");
+  has(body("trajectory: {type: static, r: 1.5, dragged: true}, radius: 0.1"), "the horizon is at");
   has(complaint_of("{type: static, r: 1.9}"),
       "must exceed 2 (units of M) at that latitude, got 1.9");
   has(complaint_of("{type: static, r: 1.4, dragged: true}"), "must exceed 1.43588989");

@@ -1,0 +1,175 @@
+#include "pipeline/light/kerr_sphere_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "pipeline/light/kerr_view.h"
+
+namespace domefall {
+namespace {
+
+// What a small square of view shows of a disc of the radius 1.
+struct Shown {
+  double part = 0;    // of the square that the disc covers
+  double cosine = 0;  // mean over that part, of the angle at which the light left
+};
+
+// The square becomes a rectangle about (x, y) with these halves of its sides.
+Shown shown_of_disc(double x, double y, double half_x, double half_y) {
+  constexpr int kStrips = 12;
+  Shown shown;
+  double heights = 0;
+  for (int k = 0; k < kStrips; ++k) {
+    const double off = y + half_y * ((2 * k + 1.0) / kStrips - 1);
+    if (!(std::abs(off) < 1)) continue;
+    const double chord = std::sqrt((1 - off) * (1 + off));
+    const double low = std::clamp(x - half_x, -chord, chord),
+                 high = std::clamp(x + half_x, -chord, chord);
+    const auto area = [&](double at) {
+      const double part = std::clamp(at / chord, -1.0, 1.0);
+      return chord * chord * (part * std::sqrt((1 - part) * (1 + part)) + std::asin(part)) / 2;
+    };
+    shown.part += (high - low) / (2 * half_x * kStrips);
+    heights += (area(high) - area(low)) / (2 * half_x * kStrips);
+  }
+  if (shown.part > 0) shown.cosine = std::min(heights / shown.part, 1.0);
+  return shown;
+}
+
+class SphereNet {
+ public:
+  SphereNet(const KerrBodyRays& rays, const KerrPass& middle, double radius, double side)
+      : rays_(rays), middle_(middle), radius_(radius), side_(side) {
+    const KerrStretch stretch = kerr_stretch(middle);
+    right_ = stretch.longer_view, up_ = stretch.shorter_view;
+  }
+
+  // Returns nothing where the image is one with one of `earlier`.
+  std::optional<std::vector<SpherePiece>> pieces(std::span<const BodyImage> earlier);
+
+ private:
+  struct Square {
+    int i, j;
+    double mino, tau;  // about
+  };
+  // A net of the stereographic projection has squares everywhere.
+  V3d view(int i, int j) const {
+    const double x = i * side_, y = j * side_, quarter = (x * x + y * y) / 4;
+    return (middle_.view * (1 - quarter) + right_ * x + up_ * y) / (1 + quarter);
+  }
+  double side_at(int i, int j) const {
+    const double x = i * side_, y = j * side_;
+    return side_ / (1 + (x * x + y * y) / 4);
+  }
+  bool is_in(const KerrPass& pass, std::span<const BodyImage> images) const {
+    return std::ranges::any_of(images, [&](const BodyImage& image) {
+      return (image.direction - pass.view).length() < side_ &&
+             std::abs(image.proper_time - pass.tau) < 2 * radius_ + 0.1;
+    });
+  }
+
+  const KerrBodyRays& rays_;
+  const KerrPass& middle_;
+  double radius_, side_;
+  V3d right_, up_;
+};
+
+// Returns the piece of a place x, y of the disc, in radii, along two axes in the body's frame.
+SpherePiece piece_of(const KerrBodyRays& rays, const KerrPass& pass, const V3d& place,
+                     double cosine, double solid_angle, double width) {
+  const double beyond = place.length(), least = std::sqrt((1 - cosine) * (1 + cosine));
+  const V3d beside = beyond > 0 ? place * (std::min(beyond, least) / beyond) : place;
+  const double up = std::sqrt(std::max(0.0, 1 - beside.length2()));
+  const V3d own = beside + pass.leaving * up;
+  const V3d seen = apply_transposed(rays.axes(), apply(kerr_axes(pass.body.at.place), own));
+  return {{{pass.view}, 1 / pass.frequency, solid_angle}, cosine, seen, width / cosine};
+}
+
+std::optional<std::vector<SpherePiece>> SphereNet::pieces(std::span<const BodyImage> earlier) {
+  constexpr std::size_t kMost = 1000000;
+  constexpr double kLeastCosine = 0.05;
+  std::vector<SpherePiece> pieces;
+  std::set<std::pair<int, int>> seen{{0, 0}};
+  std::deque<Square> left{{0, 0, middle_.mino, middle_.tau}};
+  for (; !left.empty() && seen.size() < kMost; left.pop_front()) {
+    const Square& at = left.front();
+    const auto pass = rays_.nearest(view(at.i, at.j), at.mino, at.tau);
+    if (!pass) continue;
+    const KerrStretch stretch = kerr_stretch(*pass);
+    const double side = side_at(at.i, at.j), half = side / 2 / radius_;
+    const V3d place = pass->off / -radius_;
+    const Shown shown = shown_of_disc(place.dot(stretch.along), place.dot(stretch.across),
+                                      stretch.longer * half, stretch.shorter * half);
+    if (!(shown.part > 0)) continue;
+    if (is_in(*pass, earlier)) return std::nullopt;
+    pieces.push_back(piece_of(rays_, *pass, place, std::max(shown.cosine, kLeastCosine),
+                              shown.part * side * side, 2 * stretch.longer * half));
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        if (seen.emplace(at.i + i, at.j + j).second)
+          left.push_back({at.i + i, at.j + j, pass->mino, pass->tau});
+  }
+  return pieces;
+}
+
+// Returns the image to first order: strips across its longer side, or nothing where that is no good.
+std::vector<SpherePiece> ellipse(const KerrBodyRays& rays, const KerrPass& middle, double radius,
+                                 double spacing) {
+  constexpr double kLongest = 0.3;
+  const KerrStretch stretch = kerr_stretch(middle);
+  const double longer = radius / stretch.shorter, shorter = radius / stretch.longer;
+  if (!(longer < kLongest)) return {};
+  const auto count = [&](double length) {
+    return std::max(1, static_cast<int>(std::ceil(length / spacing)));
+  };
+  std::vector<SpherePiece> pieces;
+  const int strips = std::max(8, count(2 * longer));
+  for (int k = 0; k < strips; ++k) {
+    const double t = (2 * k + 1.0) / strips - 1, chord = std::sqrt((1 - t) * (1 + t)),
+                 half = shorter * chord;
+    const int parts = count(2 * half);
+    for (int j = 0; j < parts; ++j) {
+      const double u = (2 * j + 1.0) / parts - 1;
+      KerrPass pass = middle;
+      pass.view =
+          (middle.view + stretch.shorter_view * (t * longer) + stretch.longer_view * (u * half))
+              .normalized();
+      const double cosine =
+          chord * (parts > 1 ? std::sqrt((1 - u) * (1 + u)) : std::numbers::pi / 4);
+      pieces.push_back(piece_of(rays, pass, stretch.across * t + stretch.along * (u * chord),
+                                cosine, 2 * longer / strips * 2 * half / parts,
+                                spacing * stretch.longer / radius));
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<SpherePiece> kerr_image_of_sphere(const KerrPlace& at, double null_time,
+                                              const BodyMotion& motion, const BodyImage& image,
+                                              std::span<const BodyImage> earlier, double radius,
+                                              const std::function<double(const V3d&)>& spacing) {
+  const KerrBodyRays rays(at, null_time, motion);
+  const auto middle = rays.meet(image.direction, image.mino, image.proper_time);
+  if (!middle) return {};
+  constexpr double kAcross = 16, kWound = 2.5, kNarrow = 4;
+  const double least = spacing(image.direction),
+               longer = image.solid_angle_per_area / image.angle_per_length,
+               side =
+                   std::min(least, 2 * radius * std::max(longer, image.angle_per_length) / kAcross);
+  const KerrDirection n = kerr_direction_of(image.direction);
+  const auto edge = critical_ray(at, n.eta, KerrEdge::kSilhouette).delta;
+  if (middle->event.swept > kWound &&
+      static_cast<double>(std::abs(n.delta - edge)) < kNarrow * side)
+    return ellipse(rays, *middle, radius, least);
+  if (auto pieces = SphereNet(rays, *middle, radius, side).pieces(earlier)) return *pieces;
+  return {SpherePiece{{{image.direction}, image.frequency_ratio, 0}, 1, image.direction}};
+}
+
+}  // namespace domefall
