@@ -31,10 +31,10 @@ TetradVector light_of(const KerrPlace& at, const KerrStart& start, const KerrSpo
 
 }  // namespace
 
-M33d kerr_axes(const V3d& n) {
-  const double sine = std::hypot(n.x, n.y);
-  const V3d round = sine > 0 ? V3d(-n.y, n.x, 0) / sine : V3d(0, 1, 0);
-  return from_columns(n, round.cross(n), round);
+M33d kerr_axes(const V3d& place) {
+  const double sine = std::hypot(place.x, place.y);
+  const V3d round = sine > 0 ? V3d(-place.y, place.x, 0) / sine : V3d(0, 1, 0);
+  return from_columns(place, round.cross(place), round);
 }
 
 TetradVector tetrad_vector(const KerrHole& hole, const KerrSpot& at, double by_r,
