@@ -143,7 +143,8 @@ int GasRays::steps_between(const LightPath::Place& a, const LightPath::Place& b,
 
 // Above the plane the circles of gas are smaller, and gas is slower against who rests.  Returns by what
 // its four-velocity is too long there.
-double GasRays::speed_at_latitude(double r, double s) const {
+double GasRays::speed_at_latitude(double r, double latitude_sine) const {
+  const double s = latitude_sine;
   const GasOrbits& orbits = disc_->orbits;
   const bool falls = r < orbits.last_stable();
   if (!spin_ || falls) {
