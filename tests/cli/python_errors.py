@@ -122,6 +122,17 @@ for r in (grid.T, grid[:, ::-1], grid.astype(">f4"), grid.astype(int), grid.asty
           grid.astype("U"), grid.astype("S"), grid.astype(np.longdouble)):
     assert np.array_equal(trace(r, 1)["phi"], trace(np.array(r.astype(float)), 1)["phi"]), r.dtype
 raises(TypeError, "delta must be real numbers", lambda: trace(6, [1j]))
+spin, wormhole = domefall.trace_spin, domefall.trace_wormhole
+raises(mistaken, "ray [1]: spin^2 + charge^2 must be at most 1", lambda: spin(6, 1, spin=[0.5, 1.1]))
+raises(mistaken, "a ray takes delta, or an edge", lambda: spin(6, spin=0.5))
+raises(mistaken, "offset is given without an edge", lambda: spin(6, 1, spin=0.5, offset=0))
+raises(mistaken, "there is no edge region3 at this r", lambda: spin(6, spin=0.5, edge="region3"))
+raises(mistaken, "edge must be silhouette", lambda: spin([6, 0.01], spin=0.9, edge=["silhouette", "r" * 99]))
+raises(mistaken, "theta must be from 0 to pi", lambda: spin(6, 1, theta=4))
+raises(TypeError, "eta must be real numbers", lambda: spin(6, 1, eta=1j))
+raises(mistaken, "profile must be", lambda: wormhole(3, 1, profile="flat"))
+raises(mistaken, "method must be table or exact, got 'rk4'", lambda: wormhole(3, 1, method="rk4"))
+raises(mistaken, "delta is 1, and edge and offset give", lambda: wormhole(3, 1, edge="throat"))
 raises(TypeError, "r must be real numbers", lambda: trace(np.array([True]), 1))
 raises(ValueError, "broadcast", lambda: trace([6, 7, 8], [1, 2]))
 

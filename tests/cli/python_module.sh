@@ -41,6 +41,10 @@ for method in table exact binet-dopri5; do
   exits 0 "$DOMEFALL" trace --table "$rays" --method $method
   mv stdout rays_$method.csv
 done
+for kind in kerr charged wormhole; do
+  exits 0 "$DOMEFALL" trace --table "$DOMEFALL_SOURCE/tests/reference/${kind}_rays.csv"
+  mv stdout rays_$kind.csv
+done
 python "$here/python_numbers.py" "$rays"
 python "$here/python_errors.py"
 

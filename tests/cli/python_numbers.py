@@ -57,6 +57,29 @@ def check_rays(path):
         assert limit is None or error.max() < limit, (method, error.max())
 
 
+def check_holes():
+    """Rays near spins and charges, and in wormholes, are those that the program has printed."""
+    for kind, trace, names in (
+            ("kerr", domefall.trace_spin, ("r", "delta", "spin", "charge", "theta", "eta", "edge", "offset")),
+            ("charged", domefall.trace_spin, ("r", "delta", "spin", "charge", "theta", "eta", "edge", "offset")),
+            ("wormhole", domefall.trace_wormhole, ("l", "delta", "profile", "rho", "a", "m", "edge", "offset"))):
+        printed = rows(f"rays_{kind}.csv")
+        rays = trace(**{name: [row[name] for row in printed] for name in names})
+        assert rays.shape == (len(printed),) and len(printed) > 100, kind
+        assert list(rays.dtype.names) == list(printed[0]), kind
+        for name in list(printed[0])[len(names):]:
+            if rays.dtype[name].kind == "U":
+                assert rays[name].tolist() == [row[name] for row in printed], (kind, name)
+            else:
+                seen = [float(row[name] or ("0" if name == "turns" else "nan")) for row in printed]
+                assert np.array_equal(rays[name], seen, equal_nan=True), (kind, name)
+    dome = domefall.trace_spin(10, np.linspace(0.8, 3, 5), spin=0.9, eta=[[0], [1.5]])
+    assert dome.shape == (2, 5) and np.allclose(dome["x"]**2 + dome["y"]**2 + dome["z"]**2, 1, atol=1e-14)
+    assert dome["theta"][0, 0] == np.pi / 2 and set(dome["origin"].flat) == {"I"}
+    through = domefall.trace_wormhole(3.0, [0.1, 2.0], method="exact")
+    assert through["origin"].tolist() == ["other", "own"]
+
+
 def check_broadcasting():
     r, delta = np.array([[1.5], [3], [2.5], [40]]), np.linspace(0.1, 3.1, 7)
     grid = domefall.trace(r, delta)
@@ -137,6 +160,7 @@ check_properties()
 for name in ("dome", "flat"):
     check_states(name)
 check_rays(sys.argv[1])
+check_holes()
 check_broadcasting()
 check_frames()
 check_threads()

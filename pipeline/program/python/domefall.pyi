@@ -45,3 +45,28 @@ def trace(
     method: Method = "table",
     tolerance: float = 1e-10,
 ) -> npt.NDArray[np.void]: ...
+
+def trace_spin(
+    r: npt.ArrayLike,
+    delta: Optional[npt.ArrayLike] = None,
+    *,
+    spin: npt.ArrayLike = 0,
+    charge: npt.ArrayLike = 0,
+    theta: npt.ArrayLike = np.pi / 2,
+    eta: npt.ArrayLike = 0,
+    edge: Optional[npt.ArrayLike] = None,
+    offset: Optional[npt.ArrayLike] = None,
+) -> npt.NDArray[np.void]: ...
+
+def trace_wormhole(
+    l: npt.ArrayLike,
+    delta: Optional[npt.ArrayLike] = None,
+    *,
+    profile: npt.ArrayLike = "ellis",
+    rho: npt.ArrayLike = 1,
+    a: Optional[npt.ArrayLike] = None,
+    m: Optional[npt.ArrayLike] = None,
+    edge: Optional[npt.ArrayLike] = None,
+    offset: Optional[npt.ArrayLike] = None,
+    method: Literal["table", "exact"] = "table",
+) -> npt.NDArray[np.void]: ...

@@ -166,4 +166,60 @@ slowest index of an array.
 Raises InputError, naming the element, for numbers that are no ray, ValueError for shapes that
 cannot be broadcast, and TypeError for arrays that are not of real numbers.)";
 
+inline constexpr const char* kTraceSpin =
+    R"(trace_spin(r, delta=None, *, spin=0, charge=0, theta=pi/2, eta=0, edge=None, offset=None)
+--
+
+Where light near a hole comes from that spins, is charged, both or neither.
+
+The arguments are numbers or texts, or arrays of them, which are broadcast against each other.
+
+r, theta: the observer's place, r in M and the angle from the hole's axis in radians.
+spin, charge: a and q, in M.  A hole that spins has spin^2 + charge^2 <= 1.
+delta, eta: the photon's direction in the frame T of docs/kerr.md; delta = 0 looks at the hole, and
+    eta goes from Theta to Phi.
+edge, offset: as for trace(); the edge is "silhouette", "region3" between the horizons or, near a
+    charge without spin, "inner".
+
+Returns a numpy structured array in the broadcast shape, with the columns of `domefall trace --table`:
+
+    spin, charge, r, theta, delta, eta, edge, offset
+                   the ray as it was given; delta is NaN where an edge was given alone
+    origin         I, III, H for the past horizon, or B for nowhere; empty inside the inner horizon
+                   of a hole that spins
+    beyond         what lies beyond H where nothing spins: E, S or B
+    theta_sky, phi_sky, x, y, z
+                   the place on that sky; NaN without one, as the last three
+    one_plus_z     frequency at the source over that observed
+    amplification  solid angle seen over solid angle on the sky
+    turns          how often cos(theta) was extreme on the way
+    mino           Mino time on the way
+
+Raises what trace() raises.)";
+
+inline constexpr const char* kTraceWormhole =
+    R"(trace_wormhole(l, delta=None, *, profile='ellis', rho=1, a=None, m=None, edge=None, offset=None, method='table')
+--
+
+Where light in a wormhole comes from, for an observer at rest.
+
+The arguments are numbers or texts, or arrays of them, which are broadcast against each other.
+
+l: the observer's place, a length from the middle of the throat, in the unit of rho.
+profile: "ellis", or "dngr", which has a and m.
+rho, a, m: radius of the throat, half of its cylinder's length, and mass (docs/wormholes.md).
+delta: angle in radians, 0 to pi, from the direction of the throat.
+edge, offset: as for trace(); the edge is "throat".
+method: "table" is what renders frames, "exact" is the integral.
+
+Returns a numpy structured array in the broadcast shape, with the columns of `domefall trace --table`:
+
+    profile, rho, a, m, l, delta, edge, offset
+                   the ray; NaN where nothing was given
+    origin         own or other, the side of the sky; empty where light circles for ever
+    azimuth, slope, one_plus_z, amplification
+                   as phi and the rest of trace()
+
+Raises what trace() raises.)";
+
 }  // namespace domefall::manual

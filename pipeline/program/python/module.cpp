@@ -8,11 +8,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <system_error>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/light/traced_ray.h"
+#include "pipeline/program/python/hole_arrays.h"
 #include "pipeline/program/python/manual.h"
 #include "pipeline/program/python/ray_arrays.h"
 #include "pipeline/program/python/show_object.h"
@@ -140,6 +142,29 @@ void define_trace(py::module_& module) {
       py::arg("r"), py::arg("delta") = none, py::kw_only(), py::arg("edge") = none,
       py::arg("offset") = none, py::arg("observer") = "rain", py::arg("method") = "table",
       py::arg("tolerance") = TraceOptions{}.tolerance, manual::kTrace);
+  module.def(
+      "trace_spin",
+      [](py::object r, py::object delta, py::object spin, py::object charge, py::object theta,
+         py::object eta, py::object edge, py::object offset) {
+        return trace_spin_arrays({std::move(r), std::move(delta), std::move(spin),
+                                  std::move(charge), std::move(theta), std::move(eta),
+                                  std::move(edge), std::move(offset)});
+      },
+      py::arg("r"), py::arg("delta") = none, py::kw_only(), py::arg("spin") = 0,
+      py::arg("charge") = 0, py::arg("theta") = std::numbers::pi / 2, py::arg("eta") = 0,
+      py::arg("edge") = none, py::arg("offset") = none, manual::kTraceSpin);
+  module.def(
+      "trace_wormhole",
+      [](py::object l, py::object delta, py::object profile, py::object rho, py::object a,
+         py::object m, py::object edge, py::object offset, const std::string& method) {
+        return trace_wormhole_arrays(
+            {std::move(l), std::move(delta), std::move(profile), std::move(rho), std::move(a),
+             std::move(m), std::move(edge), std::move(offset)},
+            method);
+      },
+      py::arg("l"), py::arg("delta") = none, py::kw_only(), py::arg("profile") = "ellis",
+      py::arg("rho") = 1, py::arg("a") = none, py::arg("m") = none, py::arg("edge") = none,
+      py::arg("offset") = none, py::arg("method") = "table", manual::kTraceWormhole);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/light/ray_request.h"
 #include "pipeline/program/python/arguments.h"
+#include "pipeline/program/python/decimals.h"
 #include "pipeline/program/python/record_array.h"
 
 namespace py = pybind11;
@@ -18,59 +19,6 @@ namespace domefall {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-py::module_ numpy() { return py::module_::import("numpy"); }
-
-std::vector<std::string> texts(const py::handle& array) {
-  std::vector<std::string> all;
-  for (const py::handle element : array.attr("ravel")().attr("tolist")())
-    all.push_back(utf8_text(py::str(element)));
-  return all;
-}
-
-// Decimals are the elements of an array of numbers, or of decimals in text.
-class Decimals {
- public:
-  Decimals(const py::array& array, const char* name) : name_(name) {
-    const char kind = array.dtype().kind();
-    if (kind == 'U' || kind == 'S' || kind == 'O')
-      texts_ = kind == 'S' ? texts(array.attr("astype")("U")) : texts(array);
-    else if (kind == 'f' || kind == 'i' || kind == 'u')
-      numbers_ = py::array_t<long double, py::array::c_style | py::array::forcecast>(array);
-    else
-      throw py::type_error(fmt::format("{} must be real numbers or decimals in text, got {}", name,
-                                       std::string(py::str(array.dtype()))));
-  }
-
-  long double number(std::size_t k) const {
-    return texts_.empty() ? numbers_.data()[k] : decimal_number(texts_[k], name_);
-  }
-
-  bool is_given(std::size_t k) const {
-    return texts_.empty() ? !std::isnan(numbers_.data()[k]) : !texts_[k].empty();
-  }
-
-  // A double stands for its exact value, so its distances from 2 and 3 are exact.
-  Radius radius(std::size_t k) const {
-    return texts_.empty() ? Radius(numbers_.data()[k]) : decimal_radius(texts_[k]);
-  }
-
- private:
-  const char* name_;
-  std::vector<std::string> texts_;
-  py::array_t<long double> numbers_;
-};
-
-// Returns "ray [2, 5]: " for the element of that number in an array of that shape.
-std::string place_of(std::size_t k, const std::vector<py::ssize_t>& shape) {
-  std::vector<std::size_t> indices(shape.size());
-  for (std::size_t axis = shape.size(); axis-- > 0;) {
-    const auto length = static_cast<std::size_t>(shape[axis]);
-    indices[axis] = k % length;
-    k /= length;
-  }
-  return indices.empty() ? std::string() : fmt::format("ray [{}]: ", fmt::join(indices, ", "));
-}
 
 // GivenRays are all that was given, broadcast to one shape.
 class GivenRays {
@@ -83,12 +31,11 @@ class GivenRays {
     const auto or_else = [](const py::object& value, const py::object& other) {
       return value.is_none() ? other : value;
     };
-    const py::sequence all = numpy().attr("broadcast_arrays")(
-        given.r, or_else(given.delta, py::float_(kNone)), or_else(given.edge, py::str("")),
-        or_else(given.offset, py::float_(0.0)), given.observer);
-    const auto array = [&](std::size_t k) { return py::array(all[k]); };
-    shape.assign(array(0).shape(), array(0).shape() + array(0).ndim());
-    const Decimals radii(array(0), "r"), deltas(array(1), "delta"), offsets(array(3), "offset");
+    const std::vector<py::array> all = broadcast(
+        {given.r, or_else(given.delta, py::float_(kNone)), or_else(given.edge, py::str("")),
+         or_else(given.offset, py::float_(0.0)), given.observer});
+    shape = shape_of(all[0]);
+    const Decimals radii(all[0], "r"), deltas(all[1], "delta"), offsets(all[3], "offset");
     edges = texts(all[2]);
     observers = texts(all[4]);
     for (std::size_t k = 0; k < edges.size(); ++k) add(k, radii, deltas, offsets);
