@@ -11,7 +11,8 @@ struct GivenVelocity {
   Tetrad tetrad = Tetrad::kRain;  // has_tetrad(region, tetrad)
   double r = kFlatSpace;          // above the horizon in I and III, at most it in II and IV
   Celerity<ReferenceTetrad> celerity;
-  double l = 0;  // of a wormhole, as in ObserverState
+  double l = 0;      // of a wormhole, as in ObserverState
+  double theta = 0;  // near a hole that spins, as in OrbitPoint
 
   OrbitPoint at(const ProperTime& tau) const;
   double held_radius() const { return r; }

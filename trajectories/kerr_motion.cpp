@@ -86,9 +86,12 @@ std::optional<KerrMotion> kerr_motion(const KerrHole& hole, double r, double the
                     {outward / 2 - b, sign_theta * *polar / size, around / size}};
 }
 
-double dragged_velocity(const KerrHole& hole, double r, double theta) {
+double dragged_velocity(const KerrHole& hole, double r, double theta, double speed) {
   const Metric g(hole, r, theta);
-  return g.spin * g.charged / (g.sigma * g.around(r));
+  const double around = g.around(r), dragged = g.spin * g.charged / (g.sigma * around);
+  if (speed == 0) return dragged;
+  return dragged +
+         speed * std::sqrt(static_cast<double>(hole.delta(r))) / (around * std::sin(theta));
 }
 
 std::optional<KerrMotion> kerr_circling(const KerrHole& hole, double r, double theta,

@@ -21,6 +21,7 @@
 #include "trajectories/geodesic.h"
 #include "trajectories/given_velocity.h"
 #include "trajectories/infinity.h"
+#include "trajectories/kerr_flight.h"
 #include "trajectories/kerr_orbit.h"
 #include "trajectories/orbit_point.h"
 #include "trajectories/radial_infall.h"
@@ -34,7 +35,7 @@ namespace domefall {
 using Trajectory =
     std::variant<StaticObserver, CircularOrbit, RadialInfall, GivenVelocity, SpeedRamp, Geodesic,
                  AcceleratedPath, Spiral, BrakedFlight, ChargedOrbit, ChargedCircle, WormholeCircle,
-                 WormholeFall, WormholeFlight, KerrOrbit, KerrCircling>;
+                 WormholeFall, WormholeFlight, KerrOrbit, KerrCircling, KerrFlight>;
 
 // Returns the point of the orbit at proper time tau (units of M, or seconds in flat space) since
 // its start.  tau must be in (birth, lifetime), for a radial infall in [0, lifetime).

@@ -138,8 +138,10 @@ constexpr std::string_view kRows = R"(
 | `dragged` | `true` or `false`: whether it turns with space, without angular momentum, and does not rest against the stars | [`false`] |
 | `latitude_deg` | -90 to 90: above the hole's equator | [0] |
 ## circular about a spin
-| `r` | above 1, at most 1e9 M: of a free orbit in the equator | required |
+| `r` | above 1, at most 1e9 M: of a free orbit in the equator, or outside the horizon with a `speed` | required |
 | `retrograde` | `true` or `false`: whether it goes against the spin | [`false`] |
+| `speed` | above -1, below 1 speed of light = 1: instead, by engines, against who turns with space; against the spin if negative | |
+| `latitude_deg` | -90 to 90: above the hole's equator, of a circle with a `speed` | [0] |
 | `orbits` | 0 to 1e6 revolutions: how many orbits in the segment, as the stars see them | |
 ## infall about a spin
 | `rest_r` | above 1, at most 1e9 M: from rest at this r, without angular momentum; else from far away | |
@@ -152,6 +154,17 @@ constexpr std::string_view kRows = R"(
 ## thrown about a spin
 | `from_r` | above 1, at most 1e9 M: where it is thrown | required |
 | `latitude_deg` | -90 to 90: above the hole's equator | [0] |
+## path about a spin
+| `keyframes` | a list of places and times, with the keys below | required |
+## keyframes about a spin
+| `at_m` | -1e12 to 1e12: the observer's own time | required |
+| `r` | above 0, at most 1e9 M: where it is then, outside the inner horizon | required |
+| `latitude_deg` | -90 to 90: above the hole's equator | [0] |
+| `azimuth_deg` | -1e9 to 1e9: about the axis, with the spin | [0] |
+## velocity about a spin
+| `r` | above 0, at most 1e9 M: outside the horizon, or down to the inner one with `against: free_fall` | required |
+| `latitude_deg` | -90 to 90: above the hole's equator | [0] |
+| `against` | `dragged`, `static` or `free_fall`: the observer against whom the speed is measured: who turns with space, without angular momentum; who rests against the stars, outside the ergosphere; or who falls from rest far away | [`dragged`] |
 ## path in a wormhole
 | `keyframes` | a list of places and times, with the keys below | required |
 ## keyframes in a wormhole

@@ -40,6 +40,25 @@ std::optional<TimedTrajectory> falling(const Section& s, const Stage& stage, con
   return TimedTrajectory{*orbit, *timing, {}};
 }
 
+// Reads a circle of any speed at any latitude, which engines keep up.
+std::optional<TimedTrajectory> read_driven_circle(const Item& item, const Section& s,
+                                                  const Stage& stage) {
+  const KerrHole& hole = hole_of(stage).kerr;
+  const auto speed = s.given("speed"), r = s.required("r", outside(stage));
+  const double theta = read_theta(s);
+  if (const Item* given = s.find("retrograde"))
+    return given->fail("goes with a free circle; give a negative speed");
+  if (!speed || !r) return std::nullopt;
+  if (std::sin(theta) < 1e-6)
+    return s.find("latitude_deg")->fail("is that of the axis, about which nothing circles there");
+  const KerrCircling circle{hole, *r, theta, dragged_velocity(hole, *r, theta, *speed)};
+  const double turn = 2 * std::numbers::pi / std::abs(circle.at(1).azimuth);
+  if (!(turn < 1e15)) return s.find("speed")->fail("leaves it at rest; give type static");
+  const auto rate = read_rate(s, stage, turn);
+  if (!rate) return std::nullopt;
+  return paced_circle(item, s, stage, circle, turn, *rate, false);
+}
+
 }  // namespace
 
 std::optional<TimedTrajectory> read_spin_rest(const Item& item, const Stage& stage, Lookup&) {
@@ -71,6 +90,11 @@ std::optional<TimedTrajectory> read_spin_circle(const Item& item, const Stage& s
   const Section s(item, {"trajectory", "circular about a spin", "rates", "pace"});
   find_end(s, {"orbits"});
   const KerrHole& hole = hole_of(stage).kerr;
+  if (s.find("speed")) return read_driven_circle(item, s, stage);
+  if (const Item* given = s.find("latitude_deg"))
+    return given->fail(
+        "needs a speed: free circles lie in the equator; inclined orbits of one r are "
+        "of type bound");
   const bool retrograde = s.flag("retrograde");
   const auto r = s.required("r", kUnitsOfM.above(kerr_light_circle(hole, !retrograde))
                                      .because("at the light circle an orbit needs the speed of "
@@ -153,7 +177,7 @@ std::optional<TimedTrajectory> read_spin_throw(const Item& item, const Stage& st
   const double theta = read_theta(s);
   if (!from_r) return std::nullopt;
   GivenVelocity frame;
-  frame.r = *from_r;
+  frame.r = *from_r, frame.theta = theta;
   frame.celerity =
       kerr_circling(hole, *from_r, theta, dragged_velocity(hole, *from_r, theta)).value().celerity;
   const auto own = read_own_celerity(s, stage, frame, lookup);

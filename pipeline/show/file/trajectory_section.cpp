@@ -200,26 +200,33 @@ struct Type {
   bool in_flat_space;
   Reader near_hole, in_wormhole, about_spin;
   std::string_view not_in_wormhole = {}, not_near_charge = {}, not_when_naked = {};
+  std::string_view not_about_spin = {};
 };
 
 constexpr std::string_view kNothingPulls =
     "nothing pulls in a wormhole: what moves freely there is of type infall or thrown";
-constexpr std::string_view kNotAboutSpin =
-    "about a hole that spins the types are static, circular, bound, infall, thrown and continue";
+constexpr std::string_view kNoEscape =
+    "about a hole that spins what comes from far away and leaves again is of type thrown";
 constexpr std::string_view kNoBodies = "bodies move near holes without charge only";
 
 // These are the types of trajectory that a show can name.  Those that a body can follow come first.
 constexpr std::array kTypes{
     Type{"static", true, read_static, read_wormhole_rest, read_spin_rest},
     Type{"circular", false, read_circular, read_wormhole_circle, read_spin_circle},
-    Type{"parabolic", false, read_parabolic, nullptr, nullptr, kNothingPulls},
-    Type{"hyperbolic", false, read_hyperbolic, nullptr, nullptr, kNothingPulls},
+    Type{"parabolic", false, read_parabolic, nullptr, nullptr, kNothingPulls, {}, {}, kNoEscape},
+    Type{"hyperbolic", false, read_hyperbolic, nullptr, nullptr, kNothingPulls, {}, {}, kNoEscape},
     Type{"bound", false, read_bound, nullptr, read_spin_bound, kNothingPulls},
     Type{"infall", false, read_infall, read_wormhole_fall, read_spin_fall},
     Type{"thrown", false, read_thrown, read_wormhole_throw, read_spin_throw},
-    Type{"kruskal", false, read_kruskal, nullptr, nullptr,
+    Type{"kruskal",
+         false,
+         read_kruskal,
+         nullptr,
+         nullptr,
          "a wormhole has no horizon, and no singularity to come from",
-         "the singularity of a charge repels, and nothing comes out of it"},
+         "the singularity of a charge repels, and nothing comes out of it",
+         {},
+         "what comes out of a hole that spins is not computed"},
     Type{"spiral",
          false,
          read_spiral,
@@ -227,18 +234,34 @@ constexpr std::array kTypes{
          nullptr,
          "nothing pulls in a wormhole: give a path, whose keyframes may go around and in",
          {},
-         "nothing falls into a naked singularity; give a path"},
-    Type{"braked", false, read_braked, nullptr, nullptr,
-         "a path whose last keyframe has speed: 0 comes to a stop in a wormhole"},
-    Type{"path", false, read_path, read_wormhole_path, nullptr},
-    Type{"velocity", true, read_velocity, read_wormhole_velocity, nullptr},
-    Type{"body", false, read_with_body, nullptr, nullptr, kNoBodies, kNoBodies},
+         "nothing falls into a naked singularity; give a path",
+         "about a hole that spins give a path, whose keyframes may go around and in"},
+    Type{"braked",
+         false,
+         read_braked,
+         nullptr,
+         nullptr,
+         "a path whose last keyframe has speed: 0 comes to a stop in a wormhole",
+         {},
+         {},
+         "a path whose last keyframe has speed: 0 comes to a stop about a hole that spins"},
+    Type{"path", false, read_path, read_wormhole_path, read_spin_path},
+    Type{"velocity", true, read_velocity, read_wormhole_velocity, read_spin_velocity},
+    Type{"body",
+         false,
+         read_with_body,
+         nullptr,
+         nullptr,
+         kNoBodies,
+         kNoBodies,
+         {},
+         "nobody rides a body about a hole that spins yet; give the trajectory that it has"},
     Type{"continue", true, read_continue, read_continue, read_continue}};
 
 // Says why a type of motion does not exist there.  Nothing is said of one that does.
 std::string_view why_not(const Type& type, const Spacetime& spacetime) {
   if (spacetime.is<Wormhole>()) return type.not_in_wormhole;
-  if (spacetime.is<SpinningHole>()) return type.about_spin ? std::string_view() : kNotAboutSpin;
+  if (spacetime.is<SpinningHole>()) return type.not_about_spin;
   const auto* charged = std::get_if<ChargedHole>(&spacetime.kind());
   if (charged && charged->is_naked() && !type.not_when_naked.empty()) return type.not_when_naked;
   return charged ? type.not_near_charge : std::string_view();

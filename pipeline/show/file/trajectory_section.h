@@ -140,6 +140,9 @@ std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& sta
 std::optional<TimedTrajectory> read_spin_bound(const Item& item, const Stage& stage, Lookup&);
 std::optional<TimedTrajectory> read_spin_throw(const Item& item, const Stage& stage,
                                                Lookup& lookup);
+std::optional<TimedTrajectory> read_spin_path(const Item& item, const Stage& stage, Lookup& lookup);
+std::optional<TimedTrajectory> read_spin_velocity(const Item& item, const Stage& stage,
+                                                  Lookup& lookup);
 
 // Returns a circle in its segment, with as many orbits as the rate makes.
 std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, const Stage& stage,

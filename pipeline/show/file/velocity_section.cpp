@@ -70,8 +70,11 @@ V3d seen_towards(const SkyDirection& place, const Stage& stage, const GivenVeloc
   observer.spacetime = stage.spacetime;
   observer.region = frame.region, observer.tetrad = frame.tetrad, observer.r = frame.r;
   observer.l = frame.l;
+  const auto* hole = std::get_if<SpinningHole>(&stage.spacetime.kind());
+  const M33d axes = hole ? moved_about(axis_of(*hole), stage.axes, frame.theta, 0) : stage.axes;
+  if (hole) observer.sky_from_tetrad = axes;
   const auto lens = LensStore().lens(observer, {{false, false, false}});
-  const V3d source = apply_transposed(stage.axes, place.v);
+  const V3d source = apply_transposed(axes, place.v);
   return to_observer(frame.celerity, lens->primary_image(source)).direction;
 }
 

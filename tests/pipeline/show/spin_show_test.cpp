@@ -147,7 +147,53 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
                   "circular, r: 9, " +
                   std::string(key) + "}}\n"),
         "is of motion about a hole that spins; give black_hole.spin");
-  has(complaint_of("{type: path, keyframes: []}"), "the types are static, circular, bound");
+  has(complaint_of("{type: braked, from_r: 9, stop_r: 5}"),
+      "a path whose last keyframe has speed: 0 comes to a stop about a hole that spins");
+  has(complaint_of("{type: parabolic, periastron: 9}"), "leaves again is of type thrown");
+  has(complaint_of("{type: circular, r: 9, latitude_deg: 5}"), "latitude_deg needs a speed");
+  has(complaint_of("{type: circular, r: 9, speed: 0.5, retrograde: true}"), "a negative speed");
+  has(complaint_of("{type: circular, r: 9, speed: 0.5, latitude_deg: 90}"), "is that of the axis");
+  has(complaint_of("{type: velocity, r: 1.2, speed: 0}"),
+      "within it speeds are 'against: free_fall'");
+  has(complaint_of("{type: velocity, r: 1.8, against: static, speed: 0}"),
+      "is within the ergosphere at that latitude");
+  has(complaint_of(
+          "{type: path, keyframes: [{at_m: 0, r: 9}, {at_m: 9, r: 1.8}, {at_m: 20, r: 1.8}]}"),
+      "cannot be flown: key 1, at proper time");
+  has(complaint_of("{type: path, keyframes: [{at_m: 0, r: 1.5, speed: 0.99, direction: backward}, "
+                   "{at_m: 9, r: 1.5}]}"),
+      "gives a negative energy there");
+}
+
+TEST_F(SpinShow, FliesWithEngines) {
+  const Show s = show_with(
+      "spin: 0.9",
+      "  - {duration_s: 4, trajectory: {type: circular, r: 1.6, latitude_deg: 30, speed: -0.3, "
+      "orbits: "
+      "0.1}}\n"
+      "  - {duration_s: 4, trajectory: {type: path, keyframes: [{at_m: 0, r: 9, speed: 0}, {at_m: "
+      "50, r: "
+      "3, latitude_deg: 60, azimuth_deg: 90, speed: 0.5, direction: forward}]}}\n"
+      "  - {duration_s: 4, trajectory: {type: velocity, r: 6, latitude_deg: 60, speed: [0, 0.9], "
+      "direction: Vega}}\n"
+      "  - {duration_s: 4, trajectory: {type: velocity, r: 1.2, against: free_fall, speed: 0}}\n"
+      "  - {duration_s: 4, trajectory: {type: thrown, from_r: 6, latitude_deg: -50, speed: 0.9, "
+      "direction: Vega}}\n");
+  EXPECT_NEAR(static_celerity(at(s, 2)).length(), 0.3 / std::sqrt(1 - 0.09), 1e-12);
+  EXPECT_LT(static_celerity(at(s, 2)).z, 0);
+  EXPECT_NEAR(static_celerity(observer_at(s, 1, 0)).length(), 0, 1e-12);
+  const ObserverState end = observer_at(s, 1, 1);
+  EXPECT_NEAR(static_celerity(end).z, 0.5 / std::sqrt(0.75), 1e-10);
+  EXPECT_NEAR(column(end.sky_from_tetrad, 0).dot(axis(s)), std::sin(std::numbers::pi / 3), 1e-12);
+  EXPECT_EQ(observer_at(s, 3, 0.5).region, Region::kII);
+  // It flies to where who has no angular momentum sees Vega.
+  const SkyDirection vega = sky_direction(279.235, 38.784);
+  for (const int segment : {2, 4}) {
+    ObserverState o = observer_at(s, segment, segment == 2 ? 1 : 0);
+    const V3d ahead = static_celerity(o).normalized();
+    o.celerity = resting_celerity(o);
+    EXPECT_LT((ahead - target_direction(LookAtSky{vega}, o).value()).length(), 1e-9) << segment;
+  }
 }
 
 // One mistake is told once.
