@@ -29,8 +29,13 @@ struct LookAtBody {  // at the direct image of a body, or at the hole where ther
 using Attitude =
     std::variant<LookAtHole, LookAlongMotion, LookAtSky, EulerAngles, LookOutward, LookAtBody>;
 
+// What a camera's direction is kept against: its target, or, from where the motion begins, gyroscopes or
+// the far stars (carried_camera.h).
+enum class CameraFrame { kHole, kGyroscope, kStars };
+
 struct Camera {
   Attitude attitude = LookAtHole{};
+  CameraFrame frame = CameraFrame::kHole;
   // The image is turned clockwise by `roll` (radians) about the line of sight.  Euler angles do not
   // use it.
   double roll = 0;

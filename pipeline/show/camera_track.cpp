@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "pipeline/show/attitude.h"
+#include "pipeline/show/carried_camera.h"
 #include "pipeline/show/observer_track.h"
 
 namespace domefall {
@@ -87,10 +88,9 @@ class Turn {
   const AttitudeKey &from_, &to_;
 };
 
-}  // namespace
-
-M33d camera_axes_at(const Show& show, int segment, double t, const Projection& projection,
-                    const ObserverState& observer) {
+// Returns the axes of a camera that follows its target.
+M33d aimed_axes(const Show& show, int segment, double t, const Projection& projection,
+                const ObserverState& observer) {
   const Segment& s = segment_of(show, segment);
   Camera camera = camera_at(s, t);
   const auto& keys = s.attitudes;
@@ -103,6 +103,18 @@ M33d camera_axes_at(const Show& show, int segment, double t, const Projection& p
     return Turn(show, segment, projection, *(next - 1), *next).axes_at(t, observer);
   camera.attitude = (next == keys.begin() ? next : next - 1)->attitude;
   return camera_axes(camera, projection, observer, show.effects);
+}
+
+}  // namespace
+
+// What is keyframed turns a camera that keeps its direction as it would have where that was taken.
+M33d camera_axes_at(const Show& show, int segment, double t, const Projection& projection,
+                    const ObserverState& observer) {
+  if (segment_of(show, segment).camera.frame == CameraFrame::kHole)
+    return aimed_axes(show, segment, t, projection, observer);
+  const CarriedTurn carried = carried_turn(show, segment, t, observer);
+  return carried.turn *
+         aimed_axes(show, segment, t, projection, observer_at(show, carried.since, 0));
 }
 
 void follow_turns(Show& show) {

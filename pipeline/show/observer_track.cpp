@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/show/carried_camera.h"
 #include "pipeline/show/curve.h"
 #include "trajectories/trajectory.h"
 
@@ -161,6 +162,8 @@ void join_segments(Show& show) {
         k == 0 ? first_joint(show, segment)
                : joint_into(joint_after(show.joints.back(), show.timeline[k - 1]), segment));
     show.joints.back().begin_s = times[k];
+    if (segment.camera.frame == CameraFrame::kGyroscope)
+      show.joints.back().gyroscope = gyroscope_of(show.spacetime, segment);
   }
 }
 

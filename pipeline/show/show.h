@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -30,6 +31,7 @@
 #include "pipeline/spacetime/regions.h"
 #include "pipeline/spacetime/spacetime.h"
 #include "projections/projection.h"
+#include "trajectories/gyroscope.h"
 #include "trajectories/trajectory.h"
 
 namespace domefall {
@@ -135,7 +137,8 @@ struct Segment {
   Trajectory trajectory;
   Timing timing;
   Placement placement;
-  Camera camera;  // holds wherever nothing is keyframed
+  Camera camera;      // holds wherever nothing is keyframed
+  bool aims = false;  // whether that has a direction of the segment's own
   // The keys stand in ascending order.  Where there are none, the camera keeps its attitude.
   std::vector<AttitudeKey> attitudes;
   std::vector<Title> titles;
@@ -303,6 +306,7 @@ struct Joint {
   Tetrad tetrad = Tetrad::kRain;
   int universe = 0;  // of those that follow each other through a charged hole
   double r = kFlatSpace;
+  std::shared_ptr<const Gyroscope> gyroscope{};  // of the segment, if its camera follows one
 };
 
 struct Show {

@@ -214,6 +214,8 @@ CameraKeys read_camera_keys(const Section& camera, const ShowCamera& show, Looku
   };
   CameraKeys keys;
   keys.attitude = read_attitude(camera, show, lookup);
+  keys.frame = camera.given_word(
+      "frame", {CameraFrame::kHole, CameraFrame::kGyroscope, CameraFrame::kStars});
   // A roll may be ten turns either way, since keyframes change it as a number and may spin the
   // image.
   keys.values[Channel::kRoll] = angle("roll_deg", camera.range("roll_deg"));
@@ -300,6 +302,7 @@ CameraKeys laid_over(CameraKeys keys, const CameraKeys& own) {
   if (is_euler(own.attitude) || by_file)
     keys.values[Channel::kRoll] = keys.values[Channel::kElevation] = std::nullopt;
   if (own.attitude || by_file) keys.attitude = own.attitude, keys.track = own.track;
+  if (own.frame) keys.frame = own.frame;
   lay_over(keys.values, own.values);
   return keys;
 }
@@ -308,6 +311,7 @@ CameraKeys laid_over(CameraKeys keys, const CameraKeys& own) {
 // turn from them to a target.
 Camera camera_from(const CameraKeys& keys, const Projection& projection) {
   Camera camera{.attitude = keys.attitude.value_or(LookAtHole{}),
+                .frame = keys.frame.value_or(CameraFrame::kHole),
                 .roll = keys.values[Channel::kRoll].value_or(0)};
   constexpr double kDomeElevationDeg = 45;
   camera.elevation = keys.values[Channel::kElevation].value_or(

@@ -32,6 +32,7 @@ Keyframe read_keyframe(const Item& item, const KeyframeSpan& span, const Show& s
     const CameraKeys keys = read_camera(*own, camera, lookup);
     if (!keys.track.empty())
       own->fail("has a file, which is for the camera of a show or a segment");
+    if (keys.frame) own->fail("has a frame, which is of the camera of a show or a segment");
     keyframe.attitude = keys.attitude;
     lay_over(keyframe.values, keys.values);
   }

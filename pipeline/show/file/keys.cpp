@@ -192,6 +192,7 @@ constexpr std::string_view kRows = R"(
 | `euler_deg` | -3600 to 3600: `[phi, theta, psi]`, instead of `look_at`, `roll_deg` and `elevation_deg` | |
 | `file` | a `.chan` or `.usda` file with a camera that another program has animated, instead of these and `elevation_deg`: [compositing.md](compositing.md#the-camera) says how it is turned; its frame 0 is the show's | |
 | `roll_deg` | -3600 to 3600: turns the scene clockwise about the target | |
+| `frame` | `hole`, `gyroscope` or `stars`: it follows its target (`hole`); or it is turned to the target where the motion begins, and from there on keeps its direction as a gyroscope does that the observer carries, or against the far stars, [below](#cameras-that-keep-their-direction) | [`hole`] |
 | `elevation_deg` | -90 to 90: on domes, and pictures of the whole sphere, height of the target above the front of the rim, or of the horizon | [45] |
 | `dome_tilt_deg` | -90 to 90: how far such a dome leans to the front; is added to the elevation | [0] |
 ## look_at

@@ -81,6 +81,7 @@ std::vector<Title> read_titles(const Section& section, const TitleSpan& span, co
 // key.
 struct CameraKeys {
   std::optional<Attitude> attitude;
+  std::optional<CameraFrame> frame{};
   std::vector<AttitudeKey> track;  // of `file`, which excludes an attitude; empty without one
   ChannelValues values;            // of kRoll, kElevation, kDomeTilt and kFov
 };

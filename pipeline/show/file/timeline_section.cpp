@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "pipeline/show/carried_camera.h"
 #include "pipeline/show/file/marked_events.h"
 #include "pipeline/show/file/sections.h"
 #include "pipeline/show/file/show_time.h"
@@ -193,6 +194,7 @@ class TimelineReader {
       keyframes = read_keyframes(*list, {begin, segment.duration_s}, show_, camera_, lookup_);
 
     segment.camera = camera_from(laid_over(camera_.keys, own), show_.projection);
+    segment.aims = own.attitude || !own.track.empty();
     const PerChannel<double> of_show = constants(camera_from(camera_.keys, show_.projection)),
                              of_segment = constants(segment.camera);
     const auto curve_of = [&](std::optional<double> own_value, const NumberOf& number_of,
@@ -287,6 +289,9 @@ class TimelineReader {
       item.fail(
           "has a camera that looks at a place on the sky, but from region IV no sky is seen; give "
           "the segment another camera.look_at");
+    if (segment.camera.frame == CameraFrame::kGyroscope)
+      if (const std::string why = why_no_gyroscope(show_.spacetime, segment); !why.empty())
+        item.fail("has a camera with frame: gyroscope, but " + why);
     if (is_at_rest(segment.trajectory, show_.spacetime) &&
         ever_has<LookAlongMotion>(segment, begin, end))
       item.fail(

@@ -190,7 +190,7 @@ TEST_F(Keyframes, CamerasStandWhereTheirKeysSay) {
       "      - {at_s: 5, ease: hold, camera: {look_at: outward}}\n");
   const auto expect_like = [&](int frame, const Attitude& attitude, double elevation_deg) {
     const FrameState f = frame_state(s, frame);
-    const Camera camera{attitude, 0, elevation_deg * kDegree, 0};
+    const Camera camera{.attitude = attitude, .elevation = elevation_deg * kDegree};
     EXPECT_LT(angle_between(camera_axes(camera, f.projection, f.observer, s.effects),
                             f.observer.tetrad_from_camera),
               1e-12)

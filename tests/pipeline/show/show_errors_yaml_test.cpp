@@ -16,7 +16,7 @@ TEST_F(ShowErrorsInYaml, OdditiesOfYamlAreNamedWithTheirPlace) {
       {"---\ntitle: b", "4:1: a show file holds one YAML document; a second one starts here"},
       {"camera: {<<: {look_at: hole}}",
        "3:10: camera.<< is an unknown key; known here: projection, cut, fov_deg, look_at, "
-       "euler_deg, file, roll_deg, elevation_deg or dome_tilt_deg"},
+       "euler_deg, file, roll_deg, frame, elevation_deg or dome_tilt_deg"},
       {"title: !!str a", "3:8: title bears the YAML tag 'tag:yaml.org,2002:str'; shows use none"},
       {"[a]: 1", "3:1: ? is no key; keys are plain words"},
   });
@@ -89,7 +89,7 @@ TEST_F(ShowErrorsInYaml, KeysThatAreUnknownRepeatedOrEmpty) {
       {"camera:",
        "3:1: camera must be a map of keys (projection, cut, fov_deg, look_at, euler_deg, file, "
        "roll_deg, "
-       "elevation_deg or dome_tilt_deg), got nothing"},
+       "frame, elevation_deg or dome_tilt_deg), got nothing"},
       {"title: ~", "3:1: title must be text, got nothing"},
   });
   expect_complaints_of_trajectories({
