@@ -25,8 +25,9 @@ struct Block {
 
 // Returns the blocks of all universes that a path visits.  Of the first one what lies before its
 // outsides, and of the last what lies behind them, is left out where the path does not go there; but
-// of a single one all that follows is drawn.
-std::vector<Block> blocks_of(const ChargedHole& hole, const Path& path) {
+// of a single one all that follows is drawn.  About a spin all ways end at the inner horizon.
+std::vector<Block> blocks_of(const ChargedHole& hole, const Path& path, bool spins) {
+  if (spins) return {{Region::kI, 0}, {Region::kIII, 0}, {Region::kII, 0}};
   if (hole.is_naked()) return {{Region::kI, 0}};
   const auto [first, last] = std::ranges::minmax(path.points, {}, &PathPoint::universe);
   const auto visits = [&path](int universe, auto... regions) {
@@ -77,7 +78,7 @@ Extent extent_of(const Spacetime& spacetime, const Path& path) {
   const auto hole = two_horizons(spacetime);
   if (!hole) return {-1, 1, -1, 1};
   Extent extent{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};
-  for (const Block& block : blocks_of(*hole, path))
+  for (const Block& block : blocks_of(*hole, path, spacetime.is<SpinningHole>()))
     for (const PenrosePoint& p : corners_of(*hole, block)) {
       extent.left = std::min(extent.left, p.x), extent.right = std::max(extent.right, p.x);
       extent.bottom = std::min(extent.bottom, p.up), extent.top = std::max(extent.top, p.up);
@@ -101,8 +102,8 @@ class Blocks {
     name("III", {-0.5, 0});
   }
 
-  void charged(const ChargedHole& hole, const Path& path) {
-    const std::vector<Block> blocks = blocks_of(hole, path);
+  void charged(const ChargedHole& hole, const Path& path, bool spins) {
+    const std::vector<Block> blocks = blocks_of(hole, path, spins);
     for (const Block& b : blocks)
       if (b.region == Region::kII || b.region == Region::kIV) fill(corners_of(hole, b));
     for (const Block& b : blocks) {
@@ -114,7 +115,7 @@ class Blocks {
           return PenrosePoint{mirrored ? -p.x : p.x, p.up};
         });
       }
-      edges(hole, b, b.universe == blocks.front().universe);
+      edges(hole, b, b.universe == blocks.front().universe, spins);
       label(hole, b);
     }
   }
@@ -154,7 +155,7 @@ class Blocks {
   }
 
   // The edges of II and IV are those of the blocks beside them, but for the lower ones of a first IV.
-  void edges(const ChargedHole& hole, const Block& block, bool is_first) {
+  void edges(const ChargedHole& hole, const Block& block, bool is_first, bool ends) {
     const Stroke outer{"#16181d", 1.8}, inner{"#16181d", 1.4, "7 3"};
     const std::vector<PenrosePoint> c = corners_of(hole, block);
     // Draws the two edges that meet at a corner.
@@ -171,6 +172,8 @@ class Blocks {
       draw(right ? 3 : 1, outer);
     } else if (block.region == Region::kIV && is_first) {
       draw(0, inner);
+    } else if (ends) {
+      draw(2, inner);
     }
   }
 
@@ -216,7 +219,10 @@ std::string marks_note(const Spacetime& spacetime) {
     add(fmt::format("{}: the {}, r = {}", dashed ? "dashed" : "heavy", mark.name,
                     number_text(mark.r)));
   }
-  if (two_horizons(spacetime)) add("red: the singularity, r = 0");
+  if (spacetime.is<SpinningHole>())
+    add("what is within is not computed");
+  else if (two_horizons(spacetime))
+    add("red: the singularity, r = 0");
   note.front() = static_cast<char>(std::toupper(note.front()));
   return note + ".";
 }
@@ -244,7 +250,7 @@ PlaceOnPage draw_blocks_panel(Svg& page, const PageBox& box, const Spacetime& sp
   page.begin_group("penrose");
   Blocks blocks(page, at, x(1) - x(0));
   if (const auto hole = two_horizons(spacetime))
-    blocks.charged(*hole, path);
+    blocks.charged(*hole, path, spacetime.is<SpinningHole>());
   else
     blocks.wormhole(std::get<Wormhole>(spacetime.kind()));
   PlaceOnPage place = [at](const PathPoint& p) { return at(p.penrose); };

@@ -27,6 +27,11 @@ PlaceOnPage draw_speed_panel(Svg& page, const PageBox& box, const Show& show, co
 PlaceOnPage draw_orbit_panel(Svg& page, const PageBox& box, const Spacetime& spacetime,
                              const Path& path);
 
+// Draws the path about a hole that spins as seen from its equator, whatever its azimuth.  The box must be
+// square.
+PlaceOnPage draw_side_panel(Svg& page, const PageBox& box, const SpinningHole& hole,
+                            const Path& path);
+
 // Draws the path in the Carter-Penrose diagram.  The box must be twice as wide as high, and the
 // labels of the infinities stand around it.
 PlaceOnPage draw_penrose_panel(Svg& page, const PageBox& box, const Path& path);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "pipeline/program/diagram/draw_panels.h"
 
@@ -16,6 +17,14 @@ constexpr double kMuchFarther = 30;
 // The circle up to which the panel is even then takes this part of its width.
 constexpr double kEvenPart = 0.55;
 
+constexpr const char* kErgosphere = "#cfd4dd";
+
+// Returns r of the ergosphere's outside where cos(theta) is that of the latitude.
+double ergosphere(const SpinningHole& hole, double cosine) {
+  const auto a = static_cast<double>(hole.kerr.spin), q = static_cast<double>(hole.kerr.charge);
+  return 1 + std::sqrt(1 - a * a * cosine * cosine - q * q);
+}
+
 struct Plane {
   Scale x, y;
   double even_to = HUGE_VAL;  // beyond this r the distance from the middle is logarithmic
@@ -25,7 +34,8 @@ struct Plane {
     return r <= even_to ? r : even_to * (1 + stretch * std::log(r / even_to));
   }
   PagePoint in_plane(const PathPoint& p) const {
-    return {distance(p.r) * std::cos(p.azimuth), distance(p.r) * std::sin(p.azimuth)};
+    const double out = distance(p.r) * p.sine;
+    return {out * std::cos(p.azimuth), out * std::sin(p.azimuth)};
   }
 };
 
@@ -129,6 +139,8 @@ void draw_hole(Svg& page, const Plane& plane, const Spacetime& spacetime) {
   constexpr double kVisible = 2;  // pixels
   const PagePoint centre{plane.x(0), plane.y(0)};
   const double pixels = plane.x(1) - plane.x(0);
+  if (const auto* hole = std::get_if<SpinningHole>(&spacetime.kind()))
+    page.circle(centre, ergosphere(*hole, 0) * pixels, kErgosphere);
   if (!spacetime.is<Wormhole>())
     page.circle(centre, std::max(spacetime.horizon() * pixels, kVisible), "#16181d");
   if (!(pixels > 1)) return;
@@ -140,6 +152,27 @@ void draw_hole(Svg& page, const Plane& plane, const Spacetime& spacetime) {
       page.circle(centre, mark.r * pixels, "none", light);
 }
 
+// Draws half of the meridian plane: the distance from the axis, and the height above the equator.
+PageBox side_of(const Path& path) {
+  double out = 4, high = 2.2;
+  for (const PathPoint& p : path.points)
+    out = std::max(out, p.r * p.sine), high = std::max(high, p.r * std::abs(p.cosine));
+  const double half = 0.54 * std::max(out, 2 * high);
+  return {-0.08 * half, -half, 1.92 * half, half};
+}
+
+// Returns the outline of a surface r(cos(theta)) in that plane.
+template <class Radius>
+std::vector<PagePoint> outline(const Scale& out, const Scale& up, const Radius& radius) {
+  constexpr int kSteps = 90;
+  std::vector<PagePoint> points;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double theta = std::numbers::pi * k / kSteps, r = radius(std::cos(theta));
+    points.push_back({out(r * std::sin(theta)), up(r * std::cos(theta))});
+  }
+  return points;
+}
+
 // Returns what the disc and the circles are, such as "Disc: the hole, r = 2; dashed: light circle, r =
 // 3."
 std::string note_of(const Spacetime& spacetime) {
@@ -148,7 +181,9 @@ std::string note_of(const Spacetime& spacetime) {
                      : spacetime.is<Wormhole>() ? ""
                                                 : "Dot: the singularity";
   for (const RadiusMark& mark : radius_marks(spacetime)) {
-    if (mark.r == spacetime.horizon()) continue;
+    // The circles about a spin have a line of their own.
+    if (mark.r == spacetime.horizon() || (spacetime.is<SpinningHole>() && !mark.is_horizon))
+      continue;
     note += note.empty() ? "" : "; ";
     note += (mark.is_horizon ? "ring: "
              : note.empty()  ? "Dashed: "
@@ -181,9 +216,45 @@ PlaceOnPage draw_orbit_panel(Svg& page, const PageBox& box, const Spacetime& spa
   draw_path(page, path, place, is_joined_in_plane);
   draw_key(page, {box.left, box.bottom + 44}, path);
   std::string note = note_of(spacetime);
+  if (const auto* hole = std::get_if<SpinningHole>(&spacetime.kind())) {
+    const std::string further[] = {
+        fmt::format("Dashed: the circles of light, with the spin r = {}, against it r = {}.",
+                    number_text(kerr_light_circle(hole->kerr, true)),
+                    number_text(kerr_light_circle(hole->kerr, false))),
+        fmt::format("Grey: the ergosphere, to r = {} in the equator; all there turns "
+                    "counter-clockwise.",
+                    number_text(ergosphere(*hole, 0)))};
+    double y = box.bottom + 66;
+    for (const std::string& line : further) page.text({box.left, y += 18}, line, {12, "#5a606c"});
+  }
   if (path.has_gaps_in_plane)
     note += " Of many turns the first and last " + number_text(kTurnsDrawn) + ".";
   page.text({box.left, box.bottom + 66}, note, {12, "#5a606c"});
+  page.end_group();
+  return place;
+}
+
+PlaceOnPage draw_side_panel(Svg& page, const PageBox& box, const SpinningHole& hole,
+                            const Path& path) {
+  const PageBox plane = side_of(path);
+  const Scale out{plane.left, plane.right, box.left, box.right},
+      up{plane.top, plane.bottom, box.bottom, box.top};
+  draw_heading(page, box, "From the side (M): distance from the axis, height above the equator");
+  page.begin_group("side");
+  draw_axes(page, box, out, up, 7, 7);
+  page.line({out(0), box.top}, {out(0), box.bottom}, {"#8d94a1", 1.2, "8 3 2 3"});
+  page.area(outline(out, up, [&](double cosine) { return ergosphere(hole, cosine); }), kErgosphere);
+  page.area(outline(out, up, [&](double) { return hole.horizon(); }), "#16181d");
+  page.curve(outline(out, up, [&](double) { return hole.inner_horizon(); }), {"#8d94a1", 1.2});
+  for (const bool prograde : {true, false})
+    page.circle({out(kerr_light_circle(hole.kerr, prograde)), up(0)}, 3, "none", {"#16181d", 1.2});
+  PlaceOnPage place = [out, up](const PathPoint& p) {
+    return PagePoint{out(p.r * p.sine), up(p.r * p.cosine)};
+  };
+  draw_path(page, path, place, is_joined_in_plane);
+  page.text({box.left, box.bottom + 44},
+            "Black: the hole; grey: the ergosphere; rings: the circles of light in the equator.",
+            {12, "#5a606c"});
   page.end_group();
   return place;
 }

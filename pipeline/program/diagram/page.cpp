@@ -57,7 +57,11 @@ DrawnPage drawn_page(const Show& show, const Path& path) {
   const bool flat = show.spacetime.is_flat(), kruskal = show.spacetime.is<Schwarzschild>();
   const PageBox diagram = flat || kruskal ? PageBox{620, 506, 1340, 866}
                                           : blocks_box({700, 506}, 560, show.spacetime, path);
-  const double height = flat ? 490 : std::max(1010.0, diagram.bottom + 84);
+  const auto* spinning = std::get_if<SpinningHole>(&show.spacetime.kind());
+  const PageBox side{kLeft, 1076, kLeft + 460, 1536};
+  const double height = flat       ? 490
+                        : spinning ? std::max(side.bottom, diagram.bottom) + 84
+                                   : std::max(1010.0, diagram.bottom + 84);
   Svg page(kPageWidth, height);
   draw_title(page, show);
   std::vector<PlaceOnPage> places;
@@ -66,6 +70,7 @@ DrawnPage drawn_page(const Show& show, const Path& path) {
     places.push_back(draw_orbit_panel(page, {kLeft, 466, kLeft + 460, 926}, show.spacetime, path));
     places.push_back(kruskal ? draw_penrose_panel(page, diagram, path)
                              : draw_blocks_panel(page, diagram, show.spacetime, path));
+    if (spinning) places.push_back(draw_side_panel(page, side, *spinning, path));
   } else {
     places.push_back(draw_speed_panel(page, times_box(show.spacetime), show, path));
     page.text(

@@ -48,14 +48,19 @@ struct Instant {
   double l = 0;  // of a wormhole
 };
 
+// Returns axes of which R and Phi are in the plane that is seen from above.
+M33d seen_from_above(const Show& show) {
+  const M33d axes = place_tetrad(show.hole_at, show.heading, 0);
+  const auto* hole = std::get_if<SpinningHole>(&show.spacetime.kind());
+  return hole ? moved_about(axis_of(*hole), axes, std::numbers::pi / 2, 0) : axes;
+}
+
 // Instants give the state of the observer at any tick, between the frames too.  It does not depend
 // on the camera.
 class Instants {
  public:
   explicit Instants(const Show& show)
-      : show_(show),
-        origin_(place_tetrad(show.hole_at, show.heading, 0)),
-        times_(segment_times(show)) {}
+      : show_(show), origin_(seen_from_above(show)), times_(segment_times(show)) {}
 
   Instant at(const Tick& tick) const {
     const Segment& segment = show_.timeline[static_cast<std::size_t>(tick.segment)];
@@ -72,6 +77,10 @@ class Instants {
     i.point.universe = o.universe;
     i.point.r = o.r;
     i.point.azimuth = std::atan2(place.dot(column(origin_, 2)), place.dot(column(origin_, 0)));
+    if (const auto* hole = std::get_if<SpinningHole>(&show_.spacetime.kind())) {
+      const double theta = polar_angle(o, *hole);
+      i.point.sine = std::sin(theta), i.point.cosine = std::cos(theta);
+    }
     i.point.swept = point_at(segment.trajectory, proper_time_at(segment, part)).azimuth;
     const double celerity = o.celerity.length();
     i.point.speed = speed_of(celerity);

@@ -18,10 +18,13 @@ struct PathPoint {
   Region region = Region::kI;
   int universe = 0;       // of those that follow each other through a charged hole
   double r = kFlatSpace;  // M, or radii of a wormhole's throat
-  double azimuth = 0;     // radians in the orbital plane from the show's start, in (-pi, pi]
-  double swept = 0;       // radians since the start of the trajectory, unbounded
-  double speed = 0;       // against the reference tetrad, or in flat space against the sky
-  PenrosePoint penrose;   // unset in flat space
+  // Radians in the orbital plane from the show's start, in (-pi, pi]; about a hole that spins, in its
+  // equator.  The sine is that of the angle from its axis, and the cosine: in a plane 1 and 0.
+  double azimuth = 0;
+  double sine = 1, cosine = 0;
+  double swept = 0;      // radians since the start of the trajectory, unbounded
+  double speed = 0;      // against the reference tetrad, or in flat space against the sky
+  PenrosePoint penrose;  // unset in flat space
   bool is_in_drawn_turn = true;
 };
 

@@ -133,6 +133,12 @@ std::vector<RadiusMark> radius_marks(const Spacetime& spacetime) {
   if (hole && !hole->is_naked() && !hole->is_extremal())
     marks.push_back({hole->inner_horizon(), "inner horizon", true});
   if (spacetime.horizon() > 0) marks.push_back({spacetime.horizon(), "horizon", true});
+  if (const auto* spinning = std::get_if<SpinningHole>(&spacetime.kind())) {
+    for (const bool prograde : {true, false})
+      marks.push_back({kerr_light_circle(spinning->kerr, prograde),
+                       prograde ? "light with it" : "light against it", false});
+    return marks;
+  }
   if (spacetime.light_circle() > 0)
     marks.push_back({spacetime.light_circle(), "light circle", false});
   return marks;

@@ -273,6 +273,27 @@ TEST_F(Pages, ShowTheWayThroughAWormhole) {
   }
 }
 
+TEST_F(Pages, ShowASpinFromAboveAndFromTheSide) {
+  const Show show = read(
+      "black_hole: {mass_solar: 10, spin: 0.9, axis: {ra_deg: 10, dec_deg: 70}}\ntimeline:\n"
+      "  - {duration_s: 5, trajectory: {type: bound, periastron: 6, apoastron: 9, inclination_deg: "
+      "60, rate_m_per_s: 40}}\n"
+      "  - {duration_s: 5, trajectory: {type: infall, from_r: 6, latitude_deg: 30}}\n");
+  const std::string page = show_page(show);
+  for (const char* text :
+       {"id=\"side\"", "the ergosphere, to r = 2 in", "with the spin r = 1.55785",
+        "light against it r = 3.91027", ">II<", ">III<"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  // The way ends at the inner horizon.
+  for (const char* text : {">V<", "singularity", "nan"})
+    EXPECT_EQ(page.find(text), std::string::npos) << text;
+  const Path p = sample_path(show);
+  double highest = 0;
+  for (const PathPoint& point : p.points) highest = std::max(highest, point.cosine);
+  EXPECT_NEAR(highest, std::sin(std::numbers::pi / 3), 1e-2);
+  EXPECT_NEAR(p.points.back().cosine, 0.5, 0.01);
+}
+
 TEST_F(Pages, NameTrajectoriesAndDissolves) {
   const std::string page = show_page(
       read("black_hole: {mass_solar: 10}\ntimeline:\n"
