@@ -142,7 +142,8 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
   expect_complaints_of_lines({
       {"disc: {outer: 30}", "3:8: disc.outer is an unknown key; did you mean outer_r?"},
       {"disc: true",
-       "3:7: disc must be a map of keys (inner_r, outer_r, inclination_deg, node_deg, retrograde, t_max_k, "
+       "3:7: disc must be a map of keys (inner_r, outer_r, inclination_deg, node_deg, retrograde, "
+       "t_max_k, "
        "optical_depth, rim, height, plunging, pattern, slow_light, luminance_cd_m2 or opacity), "
        "got "
        "'true'"},
