@@ -20,7 +20,8 @@
 namespace domefall {
 namespace {
 
-constexpr int kMostSightings = 5000;
+// About a hole that spins each takes a tenth of a second.
+constexpr int kMostSightings = 5000, kMostAboutSpin = 50;
 // Between keyframed targets a camera turns smoothly, and each of its states takes milliseconds.
 constexpr int kWithinTurns = 10;
 
@@ -205,7 +206,8 @@ std::vector<ShowWarning> flash_warnings(const Show& show, const std::vector<int>
 
 std::vector<ShowWarning> body_warnings(const Show& show) {
   if (show.bodies.empty() || !show.effects.lensing) return {};
-  const int most = std::max(1, kMostSightings / static_cast<int>(show.bodies.size()));
+  const int sightings_at_most = show.spacetime.is<SpinningHole>() ? kMostAboutSpin : kMostSightings,
+            most = std::max(1, sightings_at_most / static_cast<int>(show.bodies.size()));
   const bool turns = std::ranges::any_of(
       show.timeline, [](const Segment& segment) { return segment.attitudes.size() > 1; });
   const int count = frame_count(show),
