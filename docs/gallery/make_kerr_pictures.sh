@@ -39,3 +39,46 @@ SHOW
 "$domefall" render "$out/fall.yaml" --frames 60,140,165,176 --out "$out/fall"
 oiiotool "$out"/fall/graded/fall_00{060,140,165,176}.png --mosaic 2x2 --ch R,G,B --resize 1000x1000 \
   --compression jpeg:84 -o docs/gallery/kerr_fall.jpg
+
+# Discs about three spins, and one that goes against the hole, from 8 degrees above them.
+disc() {
+  cat >"$out/disc_$1.yaml" <<SHOW
+size: [1000, 700]
+camera: {projection: rectilinear, fov_deg: 62, look_at: hole}
+black_hole: {mass_solar: 1e8, spin: $2}
+sky: {region_I: {background: black, stars: {max_magnitude: 5}}}
+disc: {outer_r: 16, plunging: true, pattern: turbulence$3}
+exposure: {ev: $4}
+timeline:
+  - {duration_s: 1, trajectory: {type: static, r: 34, latitude_deg: $5}}
+SHOW
+  "$domefall" render "$out/disc_$1.yaml" --frames 0 --out "$out/disc_$1"
+}
+disc slow 0.001 '' 0.3 8
+disc fast 0.95 '' 2.3 8
+disc against 0.95 ', retrograde: true' 0.3 8
+disc pole 0.95 '' 2.8 75
+oiiotool "$out"/disc_{slow,fast,against,pole}/graded/*.png --mosaic 2x2 --ch R,G,B --resize 1400x980 \
+  --compression jpeg:84 -o docs/gallery/kerr_discs.jpg
+
+# As others saw them.
+pictures=()
+for show in m87 sgr_a; do
+  "$domefall" render "shows/spin/$show.yaml" --frames 0 --out "$out/$show"
+  pictures+=("$out/$show/graded/${show}_00000.png")
+done
+oiiotool "${pictures[@]}" --mosaic 2x1 --ch R,G,B --resize 1200x600 --compression jpeg:84 \
+  -o docs/gallery/kerr_event_horizon_telescope.jpg
+pictures=()
+for a in 0 05 08 095 0999; do
+  "$domefall" render "shows/spin/silhouette_$a.yaml" --frames 0 --out "$out/silhouette_$a"
+  pictures+=("$out/silhouette_$a/graded/silhouette_${a}_00000.png")
+done
+oiiotool "${pictures[@]}" --mosaic 5x1 --ch R,G,B --resize 1500x300 --compression jpeg:84 \
+  -o docs/gallery/kerr_silhouettes.jpg
+
+# The production.
+sheet=240,600,990,1170,1590,1980,2610,3030,3660,4260,4740,5220
+"$domefall" render shows/the_dragged_sky.yaml --size 512 --frames "$sheet" --out "$out/the_dragged_sky"
+oiiotool "$out"/the_dragged_sky/graded/*.png --mosaic 4x3 --ch R,G,B --resize 1400x1050 --compression jpeg:82 \
+  -o docs/gallery/the_dragged_sky_sheet.jpg

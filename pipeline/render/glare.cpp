@@ -78,9 +78,12 @@ class GlareGrid {
     const int down = (part.height + step - 1) / step + 1;
     corners_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(down));
     tbb::parallel_for(0, down, [&](int y) {
-      for (int x = 0; x < across_; ++x)
-        corners_[index(x, y)] =
-            sphere.at(sphere.place(part.direction(x * step + 0.5, y * step + 0.5)));
+      for (int x = 0; x < across_; ++x) {
+        Rgb& corner = corners_[index(x, y)];
+        corner = sphere.at(sphere.place(part.direction(x * step + 0.5, y * step + 0.5)));
+        // Far from a place that is brighter by far the series may swing below 0 a little.
+        for (float& light : corner) light = std::max(light, 0.0f);
+      }
     });
   }
 

@@ -227,7 +227,8 @@ std::vector<DiscPass::Place> DiscPass::KerrStrip::places(const CameraDirection& 
     if (!(covered > 0)) continue;
     const Gas one = gas(piece, at, 1 / std::clamp(at.w.value, low_, high_));
     if (!(one.frequency_ratio > 0)) continue;
-    places.push_back({order, one.r, azimuth(at.angle.value, one.r), one.frequency_ratio, covered});
+    places.push_back({order, one.r, std::remainder(azimuth(at.angle.value, one.r), 2 * pi),
+                      one.frequency_ratio, covered});
     if (pass_.scene_.state.settings.disc_opacity * covered * one.absorbed == 1) break;
   }
   return places;

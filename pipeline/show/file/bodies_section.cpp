@@ -242,7 +242,7 @@ Body read_body(const std::string& name, const Item& item, const Show& to,
     for (const std::string_view key :
          {"r", "trajectory", "begins_m", "inclination_deg", "node_deg", "azimuth_deg"})
       s.one_of({"elements", key});
-    read_elements(*elements, to, year, body);
+    if (item.problems->count() == problems) read_elements(*elements, to, year, body);
   } else {
     read_way(s, to, lookup, body);
     const OrbitPlane plane = read_body_plane(s, to);
@@ -286,7 +286,10 @@ std::optional<BodyRing> read_ring(const Item& item, const std::vector<BodyRing>&
 // Reads one ring, or a list of them.
 void read_rings(const Item& item, const Spacetime& spacetime, Body& body) {
   if (spacetime.is<Wormhole>()) item.fail("are about bodies near a hole");
-  if (spacetime.is<SpinningHole>()) item.fail("are not drawn about a hole that spins");
+  if (spacetime.is<SpinningHole>()) {
+    item.fail("are not drawn about a hole that spins");
+    return;
+  }
   const auto add = [&](const Item& one) {
     if (const auto ring = read_ring(one, body.rings)) body.rings.push_back(*ring);
   };

@@ -145,6 +145,8 @@ std::optional<Gas> read_thin_gas(const Section& show, std::string_view key, cons
   Gas gas;
   const bool tilted = s.find("inclination_deg") || s.find("node_deg");
   const bool spins = to.spacetime.is<SpinningHole>();
+  if (const Item* node = s.find("node_deg"); node && spins)
+    node->fail("cannot be given: about a hole that spins gas lies in its equator");
   gas.normal = to.disc && !tilted && !spins ? to.disc->normal : read_gas_plane(s, to, false).normal;
   gas.r = s.number("r");
   gas.luminance = s.number("luminance_cd_m2");

@@ -146,7 +146,7 @@ constexpr std::string_view kRows = R"(
 ## infall about a spin
 | `rest_r` | above 1, at most 1e9 M: from rest at this r, without angular momentum; else from far away | |
 | `latitude_deg` | -90 to 90: above the hole's equator, where the fall begins | [0] |
-| `angular_momentum` | -1e3 to 1e3 M: about the axis, of a fall from far away | [0] |
+| `angular_momentum` | -1e3 to 1e3 M: about the axis, of a fall from far away, which must not turn around | [0] |
 ## bound about a spin
 | `periastron` | above 1, at most 1e9 M: its smallest r | required |
 | `apoastron` | above 1, at most 1e6 M: its largest r; if both are alike, it stays on a sphere | required |

@@ -110,6 +110,20 @@ std::optional<TimedTrajectory> read_spin_circle(const Item& item, const Stage& s
                       *rate, false);
 }
 
+// Returns the greatest r below `from` at which a fall with E = 1 turns around outside the horizon, if it
+// does.
+std::optional<double> turn_of_fall(const KerrHole& hole, double from, double momentum,
+                                   double carter) {
+  constexpr int kSteps = 4000;
+  const auto a = static_cast<double>(hole.spin), horizon = static_cast<double>(hole.horizon());
+  for (int k = 1; k < kSteps; ++k) {
+    const double r = from * std::pow(horizon / from, k / static_cast<double>(kSteps));
+    const double p = r * r + a * a - a * momentum;
+    if (p * p < static_cast<double>(hole.delta(r)) * (r * r + carter)) return r;
+  }
+  return std::nullopt;
+}
+
 // Falls from rest far away, or without angular momentum from rest nearby.
 std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "begin", "infall about a spin", "end", "rates", "pace"});
@@ -143,6 +157,11 @@ std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& sta
     return s.find("angular_momentum")
         ->fail(fmt::format("is too much for a fall from infinity to come to r = {}",
                            short_number(*from_r)));
+  if (const auto turn = turn_of_fall(hole, *from_r, momentum, carter_q + over * over))
+    return s.find("angular_momentum")
+        ->fail(fmt::format("is too much for a fall, which turns around at r = {:.4g}: type thrown "
+                           "flies past the hole",
+                           *turn));
   defaults.tau = 0;
   return falling(s, stage, item, *from_r, theta, *motion, defaults);
 }

@@ -142,6 +142,10 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   has(complaint_of("{type: bound, periastron: 7, apoastron: 6}"), "at least the periastron, 7");
   has(complaint_of("{type: bound, periastron: 7, apoastron: 2e6}"), "apoastron must be at most");
   has(complaint_of("{type: infall, from_r: 9, angular_momentum: 90}"), "is too much for a fall");
+  has(complaint_of("{type: infall, from_r: 20, angular_momentum: 2.7}"), "turns around at r = ");
+  EXPECT_EQ(complaint_of("{type: infall, from_r: 20, angular_momentum: 2.6}"), "");
+  EXPECT_EQ(complaint_of("{type: infall, from_r: 20, angular_momentum: -4.7}"), "");
+  has(complaint_of("{type: infall, from_r: 20, angular_momentum: -4.8}"), "turns around at r = ");
   for (const char* key : {"latitude_deg: 9", "inclination_deg: 9", "retrograde: true"})
     has(complaint("black_hole: {mass_solar: 4}\ntimeline:\n  - {duration_s: 2, trajectory: {type: "
                   "circular, r: 9, " +
