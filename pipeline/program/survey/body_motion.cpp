@@ -20,8 +20,8 @@
 namespace domefall {
 namespace {
 
-// About a hole that spins each takes a tenth of a second.
-constexpr int kMostSightings = 5000, kMostAboutSpin = 50;
+// About a hole that spins each takes up to a second.
+constexpr int kMostSightings = 5000, kMostAboutSpin = 16;
 // Between keyframed targets a camera turns smoothly, and each of its states takes milliseconds.
 constexpr int kWithinTurns = 10;
 
