@@ -14,7 +14,8 @@
 namespace domefall {
 namespace {
 
-constexpr int kSurveyWidth = 48, kMostCostInstants = 60;
+// Of a hole that spins a frame with gas takes seconds at any size.
+constexpr int kSurveyWidth = 48, kMostCostInstants = 60, kMostAboutSpin = 12;
 constexpr std::size_t kFields = 12;  // along each side
 // Three stops are an eighth of the light.
 constexpr double kFadeStops = 3;
@@ -133,7 +134,8 @@ void warn_of_stretches(const std::vector<FrameLight>& frames, double seconds, co
 LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* grader) {
   const int count = frame_count(show);
   const int seconds = static_cast<int>(std::ceil(count / show.frames_per_second));
-  const int samples = std::min(count, std::clamp(seconds + 1, 2, kMostCostInstants));
+  const int most = show.spacetime.is<SpinningHole>() ? kMostAboutSpin : kMostCostInstants;
+  const int samples = std::min(count, std::clamp(seconds + 1, 2, most));
   LightMeter meter(grader);
   std::vector<FrameLight> lights;
   for (int k = 0; k < samples; ++k) {
@@ -158,7 +160,7 @@ LightSurvey survey_light(const Show& show, Renderer& renderer, const Grader* gra
 
 std::vector<ShowWarning> light_warnings(const Show& show, Renderer& renderer,
                                         const LightSurvey& survey) {
-  constexpr std::size_t kMostPairs = 16;
+  const std::size_t most_pairs = show.spacetime.is<SpinningHole>() ? 2 : 16;
   constexpr int kSureWidth = 256;
   std::vector<std::pair<FrameLight, FrameLight>> pairs;
   for (std::size_t k = 1; k < survey.frames.size(); ++k)
@@ -166,7 +168,7 @@ std::vector<ShowWarning> light_warnings(const Show& show, Renderer& renderer,
       pairs.emplace_back(survey.frames[k - 1], survey.frames[k]);
   std::ranges::stable_sort(pairs, std::greater(),
                            [](const auto& pair) { return step(pair.first, pair.second); });
-  pairs.resize(std::min(pairs.size(), kMostPairs));
+  pairs.resize(std::min(pairs.size(), most_pairs));
   LightMeter meter(nullptr);
   std::vector<ShowWarning> warnings;
   const auto is_black = [](const FrameLight&, const FrameLight& light) {
