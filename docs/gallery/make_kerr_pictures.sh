@@ -76,9 +76,3 @@ for a in 0 05 08 095 0999; do
 done
 oiiotool "${pictures[@]}" --mosaic 5x1 --ch R,G,B --resize 1500x300 --compression jpeg:84 \
   -o docs/gallery/kerr_silhouettes.jpg
-
-# The production.
-sheet=240,600,990,1170,1590,1980,2610,3030,3660,4260,4740,5220
-"$domefall" render shows/the_dragged_sky.yaml --size 512 --frames "$sheet" --out "$out/the_dragged_sky"
-oiiotool "$out"/the_dragged_sky/graded/*.png --mosaic 4x3 --ch R,G,B --resize 1400x1050 --compression jpeg:82 \
-  -o docs/gallery/the_dragged_sky_sheet.jpg
