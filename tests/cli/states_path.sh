@@ -74,7 +74,8 @@ black_hole: {mass_solar: 10}
 timeline: [{duration_s: 4, trajectory: {type: path, file: $part.csv}}]
 SHOW
 done
+first=$(grep -n -m1 '^[0-9].*,rain,' whole.csv | cut -d: -f1)
 exits 2 "$DOMEFALL" states whole.yaml
-says 'whole.csv:48: the tetrad changes; a path has one, give each part a file and a segment'
+says "whole.csv:$first: the tetrad changes; a path has one, give each part a file and a segment"
 exits 0 "$DOMEFALL" states out.yaml
 exits 0 "$DOMEFALL" states in.yaml
