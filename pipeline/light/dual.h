@@ -40,6 +40,12 @@ inline Dual sqrt(const Dual& a) {
   const double root = std::sqrt(a.v);
   return a.chain(root, 0.5 / root);
 }
+inline Dual sin(const Dual& a) { return a.chain(std::sin(a.v), std::cos(a.v)); }
+inline Dual cos(const Dual& a) { return a.chain(std::cos(a.v), -std::sin(a.v)); }
+inline Dual atan2(const Dual& y, const Dual& x) {
+  const double square = x.v * x.v + y.v * y.v;
+  return {std::atan2(y.v, x.v), (x.v * y.d - y.v * x.d) / square, (x.v * y.e - y.v * x.e) / square};
+}
 inline Dual asinh(const Dual& a) { return a.chain(std::asinh(a.v), 1 / std::hypot(1, a.v)); }
 
 inline double value(double a) { return a; }

@@ -10,46 +10,25 @@
 namespace domefall {
 namespace {
 
-// Returns pi over the Mino time, with E = 1, of half a turn of the latitude.  Of u = cos(theta) it is
-//
-//     u'^2 = Q - b u^2 - a^2 u^4    Q = kappa^2 - g^2    b = kappa^2 + 2 a g    g = L - a
-//
-// so that the half turn is a complete elliptic integral, pi over an arithmetic-geometric mean.
-double latitude_rate(const KerrStart& start) {
-  const auto a = static_cast<double>(start.at.hole.spin), k = static_cast<double>(start.kappa.v);
-  const auto g = static_cast<double>(start.sine * start.azimuthal.v) - a;
-  const double q = k * k - g * g, b = k * k + 2 * a * g;
-  if (!(q > 0)) return 0;
-  const double root = std::sqrt(b * b + 4 * a * a * q);
-  double one = std::sqrt((b + root) / 2), other = std::sqrt(root);
-  while (std::abs(one - other) > 1e-15 * other) {
-    const double mean = std::sqrt(one * other);
-    one = (one + other) / 2;
-    other = mean;
-  }
-  return one;
-}
-
 template <class T>
 void follow_to_sky(const KerrStart& start, const KerrRoots& roots, double ratio, TracedKerr& out) {
   const KerrPath<T> path(start, roots);
   const typename KerrPath<T>::Sum whole = path.whole();
   KerrSphere<T> sphere = kerr_sphere_of<T>(start);
-  sphere.follow(value(whole.mino), false);
+  sphere.follow(whole.mino);
   out.mino = value(whole.mino) / std::abs(out.energy);
   out.turns = sphere.turns;
-  out.swept = value(whole.mino) * latitude_rate(start);
+  if (value(sphere.half_turn) > 0) out.swept = M_PI * value(whole.mino) / value(sphere.half_turn);
   const V3d n(value(sphere.place[0]), value(sphere.place[1]), value(sphere.place[2]));
   double angle = value(whole.angle);
   if (start.mirrored) angle = -angle - static_cast<double>(2 * start.at.hole.twist(start.at.r));
   const double c = std::cos(angle), s = std::sin(angle), y = start.mirrored ? -n.y : n.y;
   out.sky = V3d(n.x * c - y * s, n.x * s + y * c, n.z);
   if constexpr (std::is_same_v<T, Dual>) {
-    const V3d speed(sphere.speed[0].v, sphere.speed[1].v, sphere.speed[2].v);
     const V3d about(-n.y, n.x, 0);
     const auto change = [&](double Dual::*by) {
       const V3d own(sphere.place[0].*by, sphere.place[1].*by, sphere.place[2].*by);
-      return own + speed * (whole.mino.*by) + about * (whole.angle.*by);
+      return own + about * (whole.angle.*by);
     };
     const V3d by_delta = change(&Dual::d), along_edge = change(&Dual::e);
     out.amplification = 1 / std::abs(n.dot(by_delta.cross(along_edge)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 
 namespace domefall {
@@ -101,6 +102,31 @@ T dual_number(long double v, long double by_delta = 0, long double by_eta = 0) {
     return static_cast<double>(v);
 }
 
+// Returns the Mino time of half a turn of u = N_z, where there are any.  With
+//
+//     u'^2 = Q - b u^2 - a^2 u^4    Q = kappa^2 - g^2    b = kappa^2 + 2 a g    g = L - a
+//
+// it is a complete elliptic integral, pi over an arithmetic-geometric mean.
+template <class T>
+T half_turn_of(const KerrStart& start) {
+  using std::sqrt;
+  const Scaled &f = start.azimuthal, &kappa = start.kappa;
+  const auto a = static_cast<double>(start.at.hole.spin);
+  const T k = dual_number<T>(kappa.v, kappa.by_delta, kappa.by_eta),
+          g = dual_number<T>(start.sine * f.v - start.at.hole.spin, start.sine * f.by_delta,
+                             start.sine * f.by_eta);
+  const T q = k * k - g * g, b = k * k + 2 * a * g;
+  if (!(value(q) > 0)) return T(0);
+  const T root = sqrt(b * b + 4 * a * a * q);
+  T one = sqrt((b + root) / 2), other = sqrt(root);
+  while (std::abs(value(one) - value(other)) > 1e-15 * value(other)) {
+    const T mean = sqrt(one * other);
+    one = (one + other) / 2;
+    other = mean;
+  }
+  return std::numbers::pi / one;
+}
+
 }  // namespace
 
 template <class T>
@@ -113,6 +139,7 @@ KerrSphere<T> kerr_sphere_of(const KerrStart& start) {
   const auto derivative = [&](long double Scaled::*by) { return 2 * (k.v * (k.*by) + (mu.*by)); };
   sphere.c = dual_number<T>(k.v * k.v + 2 * mu.v + a * a * (sine - cosine) * (sine + cosine),
                             derivative(&Scaled::by_delta), derivative(&Scaled::by_eta));
+  sphere.half_turn = half_turn_of<T>(start);
   sphere.place = {dual_number<T>(sine), dual_number<T>(0), dual_number<T>(cosine)};
   sphere.speed = {dual_number<T>(-cosine * p.v, -cosine * p.by_delta, -cosine * p.by_eta),
                   dual_number<T>(-f.v, -f.by_delta, -f.by_eta),
@@ -154,6 +181,38 @@ void KerrSphere<T>::follow(double mino, bool with_crossings) {
     if (ends) return;
     done += step;
   }
+}
+
+// Each half turn mirrors N in the equator and turns it about the axis, all by the same angle.
+template <class T>
+void KerrSphere<T>::follow(const T& mino) {
+  using std::atan2, std::cos, std::sin;
+  constexpr int kWorthIt = 3;
+  T rest = mino;
+  const double count = value(half_turn) > 0 ? std::floor(value(mino) / value(half_turn)) : 0;
+  if (count >= kWorthIt) {
+    KerrSphere half = *this;
+    half.follow(half_turn);
+    // Of the place and of the speed, one may be small.
+    double square = 0;
+    for (const T& v : speed) square += value(v) * value(v);
+    const auto product = [&](std::size_t i, std::size_t j) {
+      return place[i] * half.place[j] + speed[i] * half.speed[j] / square;
+    };
+    const T angle = count * atan2(product(0, 1) - product(1, 0), product(0, 0) + product(1, 1));
+    const T c = cos(angle), s = sin(angle);
+    const double mirror = std::fmod(count, 2) == 0 ? 1 : -1;
+    for (std::array<T, 3>* v : {&place, &speed})
+      *v = {(*v)[0] * c - (*v)[1] * s, (*v)[0] * s + (*v)[1] * c, (*v)[2] * mirror};
+    turns += static_cast<int>(count);
+    rest = mino - count * half_turn;
+  }
+  follow(value(rest), false);
+  const T late = rest - value(rest), pull = c + 2 * spin * spin * place[2] * place[2];
+  const std::array<T, 3> there = place;
+  for (std::size_t i = 0; i < 3; ++i) place[i] = place[i] + speed[i] * late;
+  speed[0] = speed[0] - pull * there[0] * late, speed[1] = speed[1] - pull * there[1] * late;
+  speed[2] = speed[2] - (pull - spin * spin) * there[2] * late;
 }
 
 template struct KerrSphere<double>;

@@ -18,6 +18,7 @@ template <class T>
 struct KerrSphere {
   double spin;
   T c;                            // C
+  T half_turn;                    // of N_z, in Mino time; 0 where it keeps its sign
   std::array<T, 3> place, speed;  // N and N'
 
   // How often N_z was extreme, and where N crossed the equator.
@@ -31,7 +32,9 @@ struct KerrSphere {
   std::vector<Crossing> crossings;
   double squares = 0;
 
-  // Follows N over a Mino time, which is exact for its value only.
+  // Follows N over a Mino time.
+  void follow(const T& mino);
+  // Likewise, with its crossings, all the way.  This is exact for the value only.
   void follow(double mino, bool with_crossings);
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/light/kerr_sphere.h"
 #include "pipeline/light/traced_charge.h"
 #include "pipeline/spacetime/charged.h"
 #include "tests/pipeline/light/kerr_rays.h"
@@ -188,6 +189,40 @@ TEST(KerrRay, GoesOnAsItselfFromWhereItPassesTheEquator) {
     }
   }
   EXPECT_GT(seen, 80);
+}
+
+// Whole half turns are taken at once, and the place is that after all of them, with its derivatives.
+TEST(KerrRay, GoesOnByHalfTurns) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(0, 1);
+  double worst = 0, worst_change = 0;
+  int turned = 0;
+  for (int k = 0; k < 300; ++k) {
+    const long double spin = 1 - std::pow(10.0, -6 * part(random));
+    const double theta = k % 10 == 0   ? pi / 2
+                         : k % 10 == 1 ? 1e-9
+                                       : std::acos(1 - 2 * part(random));
+    const KerrPlace at{{spin, 0}, 2 + 20 * part(random), theta};
+    const double eta = k % 10 == 2 ? pi / 2 : 2 * pi * part(random);
+    const KerrStart start = kerr_start(at, {3 * part(random), eta});
+    const auto first = kerr_sphere_of<Dual>(start);
+    const Dual mino{60 * part(random) / std::abs(static_cast<double>(start.kappa.v)), 0.3, -2};
+    KerrSphere<Dual> quick = first, whole = first;
+    quick.follow(mino);
+    whole.follow(mino.v, false);
+    EXPECT_EQ(quick.turns, whole.turns) << k;
+    turned += quick.turns;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Dual place = whole.place[i] + whole.speed[i] * (mino - mino.v);
+      const double size = 1 + std::hypot(place.d, place.e);
+      worst = std::max(worst, std::abs(quick.place[i].v - place.v));
+      worst_change = std::max({worst_change, std::abs(quick.place[i].d - place.d) / size,
+                               std::abs(quick.place[i].e - place.e) / size});
+    }
+  }
+  EXPECT_GT(turned, 1000);
+  EXPECT_LT(worst, 1e-13);
+  EXPECT_LT(worst_change, 1e-11);
 }
 
 TEST(KerrRay, TurnsWithTheViewOnTheAxis) {
