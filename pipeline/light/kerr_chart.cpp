@@ -17,7 +17,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kRows = 144, kColumns = 192;
+// A hole that spins nearly as fast as it can winds its light up many times a row.
+constexpr int kRows = 144, kRowsOfFast = 288, kColumns = 192;
+constexpr long double kFast = 0.25;  // half of r_+ - r_-
 constexpr std::size_t kPoints = 8;
 // Where polynomials of six points differ so much from those of eight (radians), the chart is not used.
 constexpr double kRough = 3e-5;
@@ -69,17 +71,18 @@ double kerr_frequency_ratio(const KerrPlace& at, double delta, double eta) {
 }
 
 KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
-    : grid_(at, sky, sky == KerrEdge::kSilhouette ? pi : 0, kRows, kColumns) {
+    : grid_(at, sky, sky == KerrEdge::kSilhouette ? pi : 0,
+            at.hole.horizon_distance() < kFast ? kRowsOfFast : kRows, kColumns) {
   constexpr int kGuard = KerrGrid::kGuard;
   nodes_.resize(grid_.nodes());
-  tbb::parallel_for(-kGuard, kRows + kGuard + 1, [&](int row) {
+  tbb::parallel_for(-kGuard, rows() + kGuard + 1, [&](int row) {
     for (int column = 0; column < kColumns; ++column) {
       const V3d there = trace_kerr_without_area(at, grid_.direction(row, column)).sky;
       nodes_[grid_.node(row, column)] = {there.x, there.y, there.z, 0};
     }
   });
-  errors_.reserve(static_cast<std::size_t>(kRows * kColumns));
-  for (int row = 0; row < kRows; ++row)
+  errors_.reserve(grid_.nodes());
+  for (int row = 0; row < rows(); ++row)
     for (int column = 0; column < kColumns; ++column)
       errors_.push_back(static_cast<float>((value_of<kPoints>(row + 0.5, column + 0.5).sky -
                                             value_of<kPoints - 2>(row + 0.5, column + 0.5).sky)
@@ -88,7 +91,7 @@ KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
 
 template <std::size_t kCount>
 KerrChart::Value KerrChart::value_of(double row, double column) const {
-  const double i = std::clamp(std::floor(row), 0.0, kRows - 1.0), j = std::floor(column);
+  const double i = std::clamp(std::floor(row), 0.0, rows() - 1.0), j = std::floor(column);
   const int top = static_cast<int>(i) + 1 - static_cast<int>(kCount) / 2,
             left = static_cast<int>(j) + 1 - static_cast<int>(kCount) / 2;
   CellNodes<kCount> cell{
@@ -114,7 +117,7 @@ KerrChart::Value KerrChart::value(double row, double column) const {
 }
 
 double KerrChart::error(double row, double column) const {
-  const int i = std::clamp(static_cast<int>(row), 0, kRows - 1),
+  const int i = std::clamp(static_cast<int>(row), 0, rows() - 1),
             j = static_cast<int>(std::floor(column)), on = (j % kColumns + kColumns) % kColumns;
   return double{errors_[static_cast<std::size_t>(i * kColumns + on)]};
 }
@@ -122,14 +125,14 @@ double KerrChart::error(double row, double column) const {
 KerrChart::Place KerrChart::place(double delta, double eta, const Edge& edge) const {
   const KerrGrid::Place in = grid_.place(delta, eta, edge);
   if (!(in.row >= 0) || error(in.row, in.column) > kRough) return exact(delta, eta, edge);
-  const Value at = value(std::min(in.row, static_cast<double>(kRows)), in.column);
+  const Value at = value(std::min(in.row, static_cast<double>(rows())), in.column);
   Place place{at.sky, at.by_row * in.row_by_delta, {}};
   const double sine = std::sin(delta);
   // Next to the end, where all eta meet, the derivative across is that by delta a quarter turn on.
   if (std::abs(delta - end()) < 5e-4) {
     const double quarter = eta + (end() > 0 ? -pi / 2 : pi / 2);
     const KerrGrid::Place there = grid_.place(delta, quarter, this->edge(quarter));
-    const double row = std::min(there.row, kRows - 1e-9);
+    const double row = std::min(there.row, rows() - 1e-9);
     // Where sky III is no larger than this, there may be none of it a quarter turn on.
     if (!(row >= 0) || error(row, there.column) > kRough) return exact(delta, eta, edge);
     place.across = this->value(row, there.column).by_row * there.row_by_delta;

@@ -46,7 +46,7 @@ KerrGrid::KerrGrid(const KerrPlace& at, KerrEdge edge, double end, int rows, int
 KerrDirection KerrGrid::direction(int row, int column) const {
   const long double eta = kTurn * column / columns_;
   if (row == rows_) return {end_, eta};
-  const long double part = std::exp(static_cast<long double>(kLeast + step_ * row));
+  const long double part = 2 / (1 + std::exp(-static_cast<long double>(kLeast + step_ * row)));
   const long double whole = end_ - critical_ray(at_, eta, kind_).delta;
   if (row < rows_) return {0, eta, kind_, part * whole};
   // Beyond the end the direction is one of the other side.
@@ -56,15 +56,15 @@ KerrDirection KerrGrid::direction(int row, int column) const {
 double KerrGrid::column_by_eta() const { return columns_ / kTurn; }
 
 KerrGrid::Place KerrGrid::place(double delta, double eta, const Edge& edge) const {
-  const double way = delta - edge.delta, whole = end_ - edge.delta;
-  return {(std::log(way / whole) - kLeast) / step_, eta * column_by_eta(), 1 / (step_ * way),
-          -edge.slope * (end_ - delta) / (whole * way) / step_};
+  const double way = delta - edge.delta, rest = 2 * (end_ - edge.delta) - way;
+  return {(std::log(way / rest) - kLeast) / step_, eta * column_by_eta(),
+          (1 / way + 1 / rest) / step_, edge.slope * (1 / rest - 1 / way) / step_};
 }
 
 KerrGrid::Direction KerrGrid::direction(double row, double column) const {
   const double eta = column / column_by_eta(), from = edge(eta).delta;
-  const double way = std::exp(kLeast + step_ * row) * (end_ - from);
-  return {from + way, eta, step_ * way};
+  const double part = 2 / (1 + std::exp(-kLeast - step_ * row)), way = part * (end_ - from);
+  return {from + way, eta, step_ * way * (1 - part / 2)};
 }
 
 }  // namespace domefall

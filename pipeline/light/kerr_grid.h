@@ -1,10 +1,10 @@
 // A KerrGrid has nodes in the view of an observer near a hole that spins, who moves as the reference
 // tetrad T: even in the angle eta about the hole and in
 //
-//     s = ln((delta - edge)/(end - edge))        end = pi, or 0 for the side of the hole
+//     s = ln((delta - edge)/(2 end - edge - delta))        end = pi, or 0 for the side of the hole
 //
 // where `edge` is that of a sky at the same eta.  In these coordinates what is seen is smooth up to the
-// edge, towards which it is seen again and again.  Places in the grid count in cells, rows from the edge
+// edge, towards which it is seen again and again, and through the end, where all eta meet.  Places in the grid count in cells, rows from the edge
 // on and columns around the hole.
 #pragma once
 
@@ -31,7 +31,7 @@ class KerrEdgeCurve {
 
 class KerrGrid {
  public:
-  // Directions nearer to the edge than e^kLeast of the way are not in it.
+  // Directions nearer to the edge than 2 e^kLeast of the way are not in it.
   static constexpr double kLeast = -13.8;
   static constexpr int kGuard = 4;  // rows of nodes beyond each end
 
