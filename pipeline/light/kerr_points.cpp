@@ -16,6 +16,9 @@ constexpr double kFaintest = 3e-6;
 // So are those whose places are not known to so many radians: the crowded images next to the flat side
 // of a hole that spins nearly as fast as it can.
 constexpr double kLost = 1e-2;
+// Where they are not known to kRough, exact rays find the images that have more than kBright of their
+// star's light, and where not to kDoubtful, they tell whether there is a fainter one at all.
+constexpr double kRough = 3e-5, kBright = 1e-2, kDoubtful = 1e-3;
 // Cells are halved down to the smallest where a caustic goes through them, or where they are not even to
 // this part of their size.
 constexpr double kUneven = 0.4, kSmallest = 0.3;
@@ -137,13 +140,54 @@ bool KerrPoints::find(const V3d& place, const Cell& cell, Found& at) const {
   return false;
 }
 
+// Says whether the exact ray leads to a place.  Most of those that polynomials send far away are of no
+// image at all.
+bool KerrPoints::is_there(const V3d& place, const KerrChart::Direction& n) const {
+  constexpr double kFarOff = 0.05;
+  const double way = n.delta - chart_.edge(n.eta).delta;
+  const TracedKerr ray = trace_kerr_without_area(chart_.at(), {0, n.eta, chart_.sky(), way});
+  return (ray.sky - place).length() < kFarOff;
+}
+
+// Where polynomials are too far off, a bright image is found by Newton's method on exact rays, from where they
+// have it.  Returns its ray, or nothing where there is none so near.
+std::optional<TracedKerr> KerrPoints::meet(const V3d& place, KerrChart::Direction& n) const {
+  constexpr int kSteps = 12;
+  constexpr double kFarthest = 0.5;  // of the way from the edge, in one step
+  double way = n.delta - chart_.edge(n.eta).delta;
+  for (int step = 0; step < kSteps; ++step) {
+    const TracedKerr ray = trace_kerr(chart_.at(), {0, n.eta, chart_.sky(), way});
+    const V3d off = place - ray.sky * place.dot(ray.sky);
+    const V3d &d = ray.by_delta, &e = ray.across;
+    const double det = d.cross(e).dot(ray.sky);
+    const double by_delta = off.cross(e).dot(ray.sky) / det,
+                 by_eta = d.cross(off).dot(ray.sky) / det / std::sin(n.delta);
+    if (!std::isfinite(by_delta) || !std::isfinite(by_eta)) return std::nullopt;
+    const double before = chart_.edge(n.eta).delta, turned = std::clamp(by_eta, -0.05, 0.05);
+    n.eta += turned;
+    const double moved = by_delta - (chart_.edge(n.eta).delta - before),
+                 most = kFarthest * std::abs(way);
+    way += std::clamp(moved, -most, most);
+    n.delta = chart_.edge(n.eta).delta + way;
+    if (std::abs(by_delta) < 1e-7 * std::abs(way) && std::abs(by_eta) < 1e-7)
+      return place.dot(ray.sky) > 0 ? std::optional(ray) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
 void KerrPoints::list_images(const V3d& source, double blur, double least_light,
                              std::vector<SkyImage>& images) const {
   const V3d place(source.x * sine_ + source.y * cosine_, source.z,
                   source.x * cosine_ - source.y * sine_);
   const std::size_t begin = images.size();
   const auto append = [&](const Found& at) {
-    const KerrChart::Direction n = chart_.direction(at.row, at.column);
+    KerrChart::Direction n = chart_.direction(at.row, at.column);
+    double view = std::abs(n.by_row) * std::sin(n.delta) * 2 * pi / chart_.columns();
+    double seen = at.value.by_row.cross(at.value.by_column).length();
+    std::optional<TracedKerr> exact;
+    const double error = chart_.error(at.row, at.column);
+    if (error > kDoubtful && !is_there(place, n)) return;
+    if (error > kRough && view > kBright * seen && !(exact = meet(place, n))) return;
     const double s = std::sin(n.delta);
     SkyImage image;
     image.direction.v = {-std::cos(n.delta), -s * std::cos(n.eta), -s * std::sin(n.eta)};
@@ -151,9 +195,9 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
       if ((images[k].direction.v - image.direction.v).length() < 1e-9) return;
     image.frequency_ratio = kerr_frequency_ratio(chart_.at(), n.delta, n.eta);
     // The solid angle of a cell in the view over that on the sky.  Both are 0 at the end of the view.
-    double view = std::abs(n.by_row) * s * 2 * pi / chart_.columns();
-    double seen = at.value.by_row.cross(at.value.by_column).length();
-    if (s < 0.02) {
+    if (exact) {
+      view = 1, seen = 1 / exact->amplification;
+    } else if (s < 0.02) {
       const KerrChart::Place place_there = chart_.place(n.delta, n.eta, chart_.edge(n.eta));
       view = 1, seen = place_there.by_delta.cross(place_there.across).length();
     }

@@ -2,9 +2,11 @@
 // by where they lie on the sky, and in each that may hold a point Newton's method finds its image.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "pipeline/light/kerr_chart.h"
+#include "pipeline/light/kerr_ray.h"
 #include "pipeline/light/sky_points.h"
 
 namespace domefall {
@@ -40,6 +42,8 @@ class KerrPoints : public SkyPoints {
   void add(double row, double column, double size);
   void set_box(Cell& cell) const;
   bool find(const V3d& place, const Cell& cell, Found& at) const;
+  bool is_there(const V3d& place, const KerrChart::Direction& n) const;
+  std::optional<TracedKerr> meet(const V3d& place, KerrChart::Direction& n) const;
 
   const KerrChart& chart_;
   double sine_, cosine_, most_light_ = 0;
