@@ -60,19 +60,20 @@ V3d across(const V3d& v, const V3d& unit) { return v - unit * v.dot(unit); }
 
 }  // namespace
 
-double kerr_frequency_ratio(const KerrPlace& at, double delta, double eta) {
-  const auto r = static_cast<double>(at.r), theta = static_cast<double>(at.theta);
-  const double sigma = r * r + static_cast<double>(at.sigma());
-  const double side =
-      static_cast<double>(at.hole.spin) * std::sin(theta) * std::sqrt(sigma) * std::sin(eta);
+KerrShift::KerrShift(const KerrPlace& at)
+    : sigma_(static_cast<double>(at.r * at.r + at.sigma())),
+      delta_(static_cast<double>(at.delta())),
+      side_(static_cast<double>(at.hole.spin * std::sin(at.theta)) * std::sqrt(sigma_)) {}
+
+double KerrShift::operator()(double delta, double eta) const {
   const double s = std::sin(delta / 2), c = std::cos(delta / 2);
-  return sigma /
-         std::abs(sigma * s * s + static_cast<double>(at.delta()) * c * c + 2 * side * s * c);
+  return sigma_ / std::abs(sigma_ * s * s + delta_ * c * c + 2 * side_ * std::sin(eta) * s * c);
 }
 
 KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
     : grid_(at, sky, sky == KerrEdge::kSilhouette ? pi : 0,
-            at.hole.horizon_distance() < kFast ? kRowsOfFast : kRows, kColumns) {
+            at.hole.horizon_distance() < kFast ? kRowsOfFast : kRows, kColumns),
+      shift_(at) {
   constexpr int kGuard = KerrGrid::kGuard;
   nodes_.resize(grid_.nodes());
   tbb::parallel_for(-kGuard, rows() + kGuard + 1, [&](int row) {

@@ -12,8 +12,15 @@
 
 namespace domefall {
 
-// Returns the frequency seen of light from a direction, over that sent.
-double kerr_frequency_ratio(const KerrPlace& at, double delta, double eta);
+// A KerrShift gives the frequency seen of light from a direction, over that sent.
+class KerrShift {
+ public:
+  explicit KerrShift(const KerrPlace& at);
+  double operator()(double delta, double eta) const;
+
+ private:
+  double sigma_, delta_, side_;
+};
 
 class KerrChart {
  public:
@@ -50,6 +57,8 @@ class KerrChart {
   // which is more than the chart's error there.
   double error(double row, double column) const;
 
+  double frequency_ratio(double delta, double eta) const { return shift_(delta, eta); }
+
   const KerrPlace& at() const { return grid_.at(); }
   KerrEdge sky() const { return grid_.kind(); }
 
@@ -59,6 +68,7 @@ class KerrChart {
   Place exact(double delta, double eta, const Edge& edge) const;
 
   KerrGrid grid_;
+  KerrShift shift_;
   std::vector<std::array<double, 4>> nodes_;  // unit vectors and a 0
   std::vector<float> errors_;
 };

@@ -95,7 +95,7 @@ void KerrLens::rays(const DirectionBatch& n, int count, ViewRayBatch& batch) con
     batch.sky_x[k] = sky.x, batch.sky_y[k] = sky.y, batch.sky_z[k] = sky.z;
     batch.along_x[k] = along.x, batch.along_y[k] = along.y, batch.along_z[k] = along.z;
     batch.scale_along[k] = ray.scale_along, batch.scale_across[k] = ray.scale_across;
-    batch.frequency_ratio[k] = kerr_frequency_ratio(charts_->at, at.delta, at.eta);
+    batch.frequency_ratio[k] = at.chart->frequency_ratio(at.delta, at.eta);
   }
 }
 

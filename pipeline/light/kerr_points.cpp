@@ -64,7 +64,7 @@ void KerrPoints::add(double row, double column, double size) {
     (at.by_row.cross(at.by_column).dot(at.sky) > 0 ? turned : straight) = true;
     // The solid angle of view of one cell of the chart there.
     view = std::max(view, std::abs(n.by_row * std::sin(n.delta)) * 2 * pi / chart_.columns());
-    ratio = std::max(ratio, kerr_frequency_ratio(chart_.at(), n.delta, n.eta));
+    ratio = std::max(ratio, chart_.frequency_ratio(n.delta, n.eta));
   }
   cell.folded = turned && straight;
   if ((cell.folded || std::max(off_row, off_column) > kUneven * size) && size > kSmallest) {
@@ -193,7 +193,7 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
     image.direction.v = {-std::cos(n.delta), -s * std::cos(n.eta), -s * std::sin(n.eta)};
     for (std::size_t k = begin; k < images.size(); ++k)
       if ((images[k].direction.v - image.direction.v).length() < 1e-9) return;
-    image.frequency_ratio = kerr_frequency_ratio(chart_.at(), n.delta, n.eta);
+    image.frequency_ratio = chart_.frequency_ratio(n.delta, n.eta);
     // The solid angle of a cell in the view over that on the sky.  Both are 0 at the end of the view.
     if (exact) {
       view = 1, seen = 1 / exact->amplification;

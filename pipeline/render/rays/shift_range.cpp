@@ -54,6 +54,7 @@ std::optional<ShiftRange> range_near_spin(const SpinningHole& hole, const Observ
   const KerrPlace at = kerr_place(hole, o);
   const KerrEdge edge = sky == SkyRegion::kI ? KerrEdge::kSilhouette : KerrEdge::kRegionThree;
   const double end = sky == SkyRegion::kI ? std::numbers::pi : 0, gamma = gamma_of(o.celerity);
+  const KerrShift shift(at);
   ShiftRange range{HUGE_VAL, 0};
   for (int j = 0; j < kAround; ++j) {
     const double eta = 2 * std::numbers::pi * j / kAround;
@@ -61,7 +62,7 @@ std::optional<ShiftRange> range_near_spin(const SpinningHole& hole, const Observ
     for (int i = 0; i <= kRows; ++i) {
       const double delta = rim + (end - rim) * i / kRows, s = std::sin(delta);
       const V3d n(-std::cos(delta), -s * std::cos(eta), -s * std::sin(eta));
-      const double ratio = kerr_frequency_ratio(at, delta, eta) * (gamma + o.celerity.dot(n));
+      const double ratio = shift(delta, eta) * (gamma + o.celerity.dot(n));
       range = {std::min(range.least, ratio), std::max(range.largest, ratio)};
     }
   }
