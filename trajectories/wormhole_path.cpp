@@ -9,16 +9,14 @@
 
 #include "pipeline/spacetime/wormhole_leg.h"
 #include "trajectories/flight_table.h"
-#include "trajectories/monotone_cubic.h"
 #include "trajectories/orbit_bounds.h"
 #include "trajectories/short_number.h"
 
 namespace domefall {
 namespace {
 
-constexpr double kFarthestFall = 1e12;     // |l| of its beginning
-constexpr double kFallEnds = 40;           // of u, beyond which r^2 - b^2 is r^2
-constexpr double kFlightRounding = 1e-12;  // of its duration, by which a time may miss its ends
+constexpr double kFarthestFall = 1e12;  // |l| of its beginning
+constexpr double kFallEnds = 40;        // of u, beyond which r^2 - b^2 is r^2
 
 OrbitPoint wormhole_point(const Wormhole& w, double l, double azimuth, double radial,
                           double tangential, const ProperTime& time) {
@@ -185,130 +183,18 @@ std::pair<double, double> WormholeFall::reach() const {
 
 // ---- keyframes ----
 
-namespace {
-
-struct WormholePiece {
-  double begin, end;  // proper time
-  HermiteCubic l, azimuth;
-};
-
-[[noreturn]] void refuse_key(std::size_t key, double tau, const std::string& why) {
-  throw std::domain_error(fmt::format("key {}, at proper time {} (radii of the throat): {}", key,
-                                      short_number(tau), why));
-}
-
-void check_wormhole_keys(const std::vector<WormholeKey>& keys) {
-  constexpr double kFastest = 1e100;  // whose square a double holds well
-  if (keys.size() < 2) throw std::domain_error("a path must have at least 2 keys");
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    const WormholeKey& key = keys[k];
-    for (const double value :
-         {key.tau, key.l, key.azimuth, key.rate.value_or(0), key.azimuth_rate.value_or(0)})
-      if (!std::isfinite(value)) refuse_key(k + 1, key.tau, "its values must be finite numbers");
-    if (k == 0) continue;
-    const WormholeKey& before = keys[k - 1];
-    const double span = key.tau - before.tau;
-    if (!(span > 0))
-      refuse_key(k + 1, key.tau, "its proper time must exceed that of the key before");
-    const double turned = std::abs(key.azimuth - before.azimuth) *
-                          (1 + std::max(std::abs(key.l), std::abs(before.l)));
-    if (!(std::abs(key.l - before.l) < kFastest * span && turned < kFastest * span))
-      refuse_key(k + 1, key.tau, "it is too close in proper time to the key before");
-  }
-}
-
-std::vector<WormholePiece> wormhole_pieces(const std::vector<WormholeKey>& keys) {
-  std::vector<double> taus, places, azimuths;
-  std::vector<std::optional<double>> rates, swept;
-  for (const WormholeKey& key : keys) {
-    taus.push_back(key.tau), places.push_back(key.l), azimuths.push_back(key.azimuth);
-    rates.push_back(key.rate), swept.push_back(key.azimuth_rate);
-  }
-  const auto l = cubics_between(taus, places, rates),
-             azimuth = cubics_between(taus, azimuths, swept);
-  std::vector<WormholePiece> pieces;
-  for (std::size_t k = 0; k < l.size(); ++k)
-    pieces.push_back({taus[k], taus[k + 1], l[k], azimuth[k]});
-  return pieces;
-}
-
-const WormholePiece& piece_at(const std::vector<WormholePiece>& pieces, double tau) {
-  const auto after =
-      std::upper_bound(pieces.begin() + 1, pieces.end(), tau,
-                       [](double value, const WormholePiece& p) { return value < p.begin; });
-  return *(after - 1);
-}
-
-// Returns the state with no null time yet.
-OrbitPoint point_on(const Wormhole& w, const WormholePiece& piece, double tau) {
-  const double span = piece.end - piece.begin;
-  const double t = std::clamp((tau - piece.begin) / span, 0.0, 1.0), l = piece.l.at(t);
-  return wormhole_point(w, l, piece.azimuth.at(t), piece.l.slope(t) / span,
-                        w.radius(l) * piece.azimuth.slope(t) / span, 0);
-}
-
-FlightTable time_table(const Wormhole& w, const std::vector<WormholePiece>& pieces) {
-  const double begin = pieces.front().begin, span = pieces.back().end - begin;
-  const auto rates = [&](double q) {
-    const double tau = begin + q * span;
-    return FlightTable::Times{span,
-                              span * gamma_of(point_on(w, piece_at(pieces, tau), tau).celerity), 0};
-  };
-  std::vector<double> kinks;
-  for (std::size_t k = 1; k < pieces.size(); ++k) kinks.push_back((pieces[k].begin - begin) / span);
-  return {rates, kinks};
-}
-
-}  // namespace
-
-// Here the table counts from the first key.
 struct WormholeFlight::Tables {
   Wormhole wormhole;
-  std::vector<WormholePiece> pieces;
   FlightTable times;
 };
 
-WormholeFlight::WormholeFlight(const Wormhole& wormhole, const std::vector<WormholeKey>& keys) {
-  check_wormhole_keys(keys);
-  std::vector<WormholePiece> pieces = wormhole_pieces(keys);
-  FlightTable times = time_table(wormhole, pieces);
-  tables_ = std::make_shared<const Tables>(Tables{wormhole, std::move(pieces), std::move(times)});
-}
-
-double WormholeFlight::begin() const { return tables_->pieces.front().begin; }
-double WormholeFlight::end() const { return tables_->pieces.back().end; }
-double WormholeFlight::birth() const { return std::nextafter(begin(), -kInfinity); }
-double WormholeFlight::death() const { return std::nextafter(end(), kInfinity); }
-
-OrbitPoint WormholeFlight::at(const ProperTime& tau) const {
-  const auto time = double(tau);
-  const double span = end() - begin(), slack = kFlightRounding * span;
-  if (!(time >= begin() - slack && time <= end() + slack))
-    throw std::domain_error("proper time " + short_number(time) +
-                            " (radii of the throat) is not on the path");
-  OrbitPoint point = point_on(tables_->wormhole, piece_at(tables_->pieces, time), time);
-  const double q = std::clamp((time - begin()) / span, 0.0, 1.0);
-  point.null_time = point.null_time + tables_->times.to_go(q).null_time;
-  return point;
-}
-
 namespace {
 
-// Returns the first proper time >= after at which l is passed while it grows, or while it falls.
-std::optional<ProperTime> first_passage(const std::vector<WormholePiece>& pieces, double l,
-                                        bool grows, const ProperTime& after) {
-  for (const WormholePiece& piece : pieces) {
-    const std::vector<double> cuts = turns_of(piece.l);
-    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-      const double from = piece.l.at(cuts[k]), to = piece.l.at(cuts[k + 1]);
-      if (from == to || grows != (to > from) || l < std::min(from, to) || l > std::max(from, to))
-        continue;
-      const double t = where(piece.l, l, cuts[k], cuts[k + 1]);
-      const ProperTime tau = piece.begin + t * (piece.end - piece.begin);
-      if (tau >= after) return tau;
-    }
-  }
-  return std::nullopt;
+// Returns the state with no null time yet.
+OrbitPoint point_on(const Wormhole& w, const PathPiece& piece, double t) {
+  const double l = piece.r.at(t);
+  return wormhole_point(w, l, piece.azimuth.at(t), piece.r.slope(t) / piece.span(),
+                        w.radius(l) * piece.azimuth.slope(t) / piece.span(), 0);
 }
 
 std::optional<ProperTime> earlier(const std::optional<ProperTime>& a,
@@ -318,32 +204,42 @@ std::optional<ProperTime> earlier(const std::optional<ProperTime>& a,
 
 }  // namespace
 
+WormholeFlight::WormholeFlight(const Wormhole& wormhole, const std::vector<PathKey>& keys)
+    : KeyframePath(keys, "radii of the throat") {
+  const auto rate = [&](std::size_t k, double t) {
+    return gamma_of(point_on(wormhole, pieces()[k], t).celerity);
+  };
+  tables_ =
+      std::make_shared<const Tables>(Tables{wormhole, null_times(rate, FlightTable::kTolerance)});
+}
+
+OrbitPoint WormholeFlight::at(const ProperTime& tau) const {
+  const double time = on_path(tau);
+  const PathPiece& piece = pieces()[piece_at(time)];
+  OrbitPoint point = point_on(tables_->wormhole, piece, piece.part(time));
+  point.null_time = point.null_time + null_time(tables_->times, time);
+  return point;
+}
+
 std::optional<ProperTime> WormholeFlight::time_at(double r, Leg leg,
                                                   const ProperTime& after) const {
   if (!(r >= 1) || std::isinf(r)) return std::nullopt;
   const double far = tables_->wormhole.distance(r - 1);
-  const bool outward = leg == Leg::kOutward;
-  return earlier(first_passage(tables_->pieces, far, outward, after),
-                 first_passage(tables_->pieces, -far, !outward, after));
+  const Leg mirrored = leg == Leg::kInward ? Leg::kOutward : Leg::kInward;
+  return earlier(KeyframePath::time_at(far, leg, after),
+                 KeyframePath::time_at(-far, mirrored, after));
 }
 
 std::optional<ProperTime> WormholeFlight::time_at_l(double l, const ProperTime& after) const {
-  return earlier(first_passage(tables_->pieces, l, true, after),
-                 first_passage(tables_->pieces, l, false, after));
+  return earlier(KeyframePath::time_at(l, Leg::kInward, after),
+                 KeyframePath::time_at(l, Leg::kOutward, after));
 }
 
 std::pair<double, double> WormholeFlight::reach() const {
-  double low = kInfinity, high = 0;
-  for (const WormholePiece& piece : tables_->pieces) {
-    double before = piece.l.at(0);
-    for (const double t : turns_of(piece.l)) {
-      const double l = piece.l.at(t);
-      low = std::min(low, before * l <= 0 ? 1 : tables_->wormhole.radius(l));
-      high = std::max(high, tables_->wormhole.radius(l));
-      before = l;
-    }
-  }
-  return {low, high};
+  const auto [low, high] = KeyframePath::reach();
+  const Wormhole& w = tables_->wormhole;
+  const double a = w.radius(low), b = w.radius(high);
+  return {low * high <= 0 ? 1 : std::min(a, b), std::max(a, b)};
 }
 
 }  // namespace domefall

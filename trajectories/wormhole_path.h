@@ -15,6 +15,7 @@
 
 #include "pipeline/spacetime/wormhole.h"
 #include "trajectories/infinity.h"
+#include "trajectories/keyframe_path.h"
 #include "trajectories/orbit_point.h"
 
 namespace domefall {
@@ -67,35 +68,18 @@ class WormholeFall {
   std::shared_ptr<const Tables> tables_;
 };
 
-struct WormholeKey {
-  double tau = 0;                                     // growing from key to key
-  double l = 0;                                       // of either sign
-  double azimuth = 0;                                 // radians; may go back
-  std::optional<double> rate = std::nullopt;          // dl/dtau = sinh(rapidity), along a radius
-  std::optional<double> azimuth_rate = std::nullopt;  // dphi/dtau
-};
-
-// A WormholeFlight is that of an observer with engines, who follows keyframes: l and azimuth are
-// cubics of proper time between them, as in an AcceleratedPath.  Every such path can be flown.  The
-// state is exact to rounding for its l, azimuth and their rates; null_time is a quadrature with
-// 1e-13.
-class WormholeFlight {
+// A WormholeFlight is a KeyframePath in a wormhole.  Every such path can be flown.  The state is exact
+// to rounding for its l, azimuth and their rates; null_time is a quadrature with 1e-13.
+class WormholeFlight : public KeyframePath {
  public:
-  // Takes two keys or more.  Throws std::domain_error that names the key (counted from 1) where
-  // they are not finite, not in the order of their times, or too close.
-  WormholeFlight(const Wormhole& wormhole, const std::vector<WormholeKey>& keys);
+  // Takes the keys of a KeyframePath, whose r is l, of either sign.
+  WormholeFlight(const Wormhole& wormhole, const std::vector<PathKey>& keys);
 
-  double begin() const;  // proper times of the first and the last key
-  double end() const;
   // Returns the point for tau in [begin(), end()], and throws std::domain_error elsewhere.
   OrbitPoint at(const ProperTime& tau) const;
-  double birth() const;  // the neighbours of begin() and end(), which still belong to the flight
-  double death() const;
-  // These return the first proper time >= after at which r is passed on that leg, and that at which l
-  // is passed.
+  // These are those of a KeyframePath, by the r of the wormhole, and by l.
   std::optional<ProperTime> time_at(double r, Leg leg, const ProperTime& after = -kInfinity) const;
   std::optional<ProperTime> time_at_l(double l, const ProperTime& after = -kInfinity) const;
-  // Returns the least and the largest r, exactly.
   std::pair<double, double> reach() const;
 
  private:

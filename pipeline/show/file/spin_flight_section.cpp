@@ -51,12 +51,12 @@ std::optional<KerrMotion> measuring_motion(const Section& s, const Stage& stage,
 }
 
 // Reads a keyframe, all of whose speeds are against who has no angular momentum.
-std::optional<KerrKey> read_kerr_key(const Item& item, const Stage& stage, Lookup& lookup) {
+std::optional<PathKey> read_kerr_key(const Item& item, const Stage& stage, Lookup& lookup) {
   const Section s(item, {"keyframes about a spin", "speed"});
   const auto at = s.required("at_m"), r = s.required("r", beyond_inner_horizon(stage));
   const double theta = read_angle(s);
   if (!at || !r) return std::nullopt;
-  KerrKey key{*at, *r, theta, s.angle("azimuth_deg"), {}};
+  PathKey key{*at, *r, s.angle("azimuth_deg"), {}, {}, theta};
   const Item* speed = s.one_of({"speed", "lorentz_factor"});
   if (!speed) return key;
   if (!(*r > stage.spacetime.horizon()))
@@ -72,7 +72,7 @@ std::optional<KerrKey> read_kerr_key(const Item& item, const Stage& stage, Looku
   const KerrHole& hole = kerr_of(stage);
   if (!(kerr_motion(hole, *r, theta, celerity).energy > 0))
     return speed->fail("gives a negative energy there, which paths do not have; type thrown has");
-  key.rates = kerr_rates(hole, *r, theta, celerity);
+  set_kerr_rates(hole, key, celerity);
   return key;
 }
 
@@ -102,7 +102,7 @@ std::optional<TimedTrajectory> read_spin_path(const Item& item, const Stage& sta
   const Item* list = s.require("keyframes", ": a list of {at_m, r, latitude_deg, azimuth_deg}");
   const auto items = list ? read_list(*list) : std::nullopt;
   if (!items) return std::nullopt;
-  std::vector<KerrKey> keys;
+  std::vector<PathKey> keys;
   for (const Item& one : *items)
     if (const auto key = read_kerr_key(one, stage, lookup)) keys.push_back(*key);
   if (keys.size() < items->size()) return std::nullopt;

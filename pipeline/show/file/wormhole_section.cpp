@@ -87,7 +87,7 @@ std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage&
   const Item* list = s.require("keyframes", ": a list of {at_m, l, azimuth_deg}");
   const auto items = list ? read_list(*list) : std::nullopt;
   if (!items) return std::nullopt;
-  std::vector<WormholeKey> keys;
+  std::vector<PathKey> keys;
   for (const Item& one : *items) {
     const Section key(one, {"keyframes in a wormhole", "speed"});
     const auto at = key.required("at_m"), l = key.required("l");
@@ -95,7 +95,7 @@ std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage&
     keys.push_back({*at, *l, key.angle("azimuth_deg")});
     const auto own = read_speed_on_path(key, stage, rest_at(wormhole_of(stage), *l), lookup);
     if (!own) continue;
-    keys.back().rate = own->x;
+    keys.back().radial_rate = own->x;
     keys.back().azimuth_rate = own->z / wormhole_of(stage).radius(*l);
   }
   if (keys.size() < items->size()) return std::nullopt;
