@@ -3,11 +3,17 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "pipeline/spacetime/spacetime.h"
 #include "trajectories/orbit_point.h"
 
 namespace domefall {
+
+// Of holes, extremal ones and naked singularities.
+inline std::vector<long double> charges() {
+  return {1e-7L, 0.1L, 0.5L, 0.8L, 0.99L, 1 - 1e-12L, 1.0L, 1.0L + 1e-12L, 1.03L, 1.2L, 5.0L};
+}
 
 struct Conserved {
   double energy, radial, momentum;  // radial is dr/dtau
