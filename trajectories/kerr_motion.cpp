@@ -113,6 +113,10 @@ std::optional<KerrMotion> kerr_circling(const KerrHole& hole, double r, double t
                     around * around + a * a * cosine * cosine, celerity};
 }
 
+KerrMotion kerr_dragged(const KerrHole& hole, double r, double theta) {
+  return kerr_circling(hole, r, theta, dragged_velocity(hole, r, theta)).value();
+}
+
 double circling_rate(const KerrHole& hole, double r, double theta, double velocity) {
   const Metric g(hole, r, theta);
   return 1 /

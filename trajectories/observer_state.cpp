@@ -51,9 +51,7 @@ Celerity<ReferenceTetrad> resting_celerity(const ObserverState& o) {
   const auto* hole = std::get_if<SpinningHole>(&o.spacetime.kind());
   if (!hole || !has_rest(o)) return resting_celerity(o.spacetime, o.r, o.tetrad);
   const double theta = polar_angle(o, *hole);
-  return kerr_circling(hole->kerr, o.r, theta, dragged_velocity(hole->kerr, o.r, theta))
-      .value()
-      .celerity;
+  return kerr_dragged(hole->kerr, o.r, theta).celerity;
 }
 
 Celerity<RestFrame> static_celerity(const ObserverState& o) {

@@ -12,12 +12,18 @@ namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2;
 
-const SpinningHole& hole_of(const Stage& stage) {
-  return std::get<SpinningHole>(stage.spacetime.kind());
+const KerrHole& hole_of(const Stage& stage) {
+  return std::get<SpinningHole>(stage.spacetime.kind()).kerr;
 }
 
 // Returns the angle from the axis.
 double read_theta(const Section& s) { return kRightAngle - s.angle("latitude_deg"); }
+
+GivenVelocity frame_of(double r, double theta, const KerrMotion& motion) {
+  GivenVelocity frame;
+  frame.r = r, frame.theta = theta, frame.celerity = motion.celerity;
+  return frame;
+}
 
 Range outside(const Stage& stage) {
   return kUnitsOfM.above(stage.spacetime.horizon())
@@ -28,8 +34,7 @@ Range outside(const Stage& stage) {
 std::optional<TimedTrajectory> falling(const Section& s, const Stage& stage, const Item& item,
                                        double r, double theta, const KerrMotion& motion,
                                        const Defaults& defaults) {
-  const auto orbit =
-      made(s, item, [&] { return KerrOrbit(hole_of(stage).kerr, r, theta, motion); });
+  const auto orbit = made(s, item, [&] { return KerrOrbit(hole_of(stage), r, theta, motion); });
   if (!orbit) return std::nullopt;
   // What begins at the orbit's own beginning does so at 0 exactly.
   const auto from_r = s.given("from_r");
@@ -43,7 +48,7 @@ std::optional<TimedTrajectory> falling(const Section& s, const Stage& stage, con
 // Reads a circle of any speed at any latitude, which engines keep up.
 std::optional<TimedTrajectory> read_driven_circle(const Item& item, const Section& s,
                                                   const Stage& stage) {
-  const KerrHole& hole = hole_of(stage).kerr;
+  const KerrHole& hole = hole_of(stage);
   const auto speed = s.given("speed"), r = s.required("r", outside(stage));
   const double theta = read_theta(s);
   if (const Item* given = s.find("retrograde"))
@@ -59,11 +64,78 @@ std::optional<TimedTrajectory> read_driven_circle(const Item& item, const Sectio
   return paced_circle(item, s, stage, circle, turn, *rate, false);
 }
 
+// Returns the greatest r below `from` at which a fall with E = 1 turns around outside the horizon, if it
+// does.
+std::optional<double> turn_of_fall(const KerrHole& hole, double from, double momentum,
+                                   double carter) {
+  constexpr int kSteps = 4000;
+  const auto a = static_cast<double>(hole.spin), horizon = static_cast<double>(hole.horizon());
+  for (int k = 1; k < kSteps; ++k) {
+    const double r = from * std::pow(horizon / from, k / static_cast<double>(kSteps));
+    const double p = r * r + a * a - a * momentum;
+    if (p * p < static_cast<double>(hole.delta(r)) * (r * r + carter)) return r;
+  }
+  return std::nullopt;
+}
+
+// ---- engines and held velocities ----
+
+Range beyond_inner_horizon(const Stage& stage) {
+  return kUnitsOfM.above(stage.spacetime.inner_horizon())
+      .because("what is seen within the inner horizon is not computed")
+      .at_most(kFarthest);
+}
+
+enum class MeasuredBy { kDragged, kStatic, kFreeFall };
+
+// Returns the motion of the observer against whom a speed is given, or reports that there is none.
+std::optional<KerrMotion> measuring_motion(const Section& s, const Stage& stage, MeasuredBy against,
+                                           double r, double theta) {
+  const KerrHole& hole = hole_of(stage);
+  if (against == MeasuredBy::kFreeFall) return kerr_motion(hole, r, theta, 1, 0, 0, -1, 0);
+  const bool dragged = against == MeasuredBy::kDragged;
+  auto motion = kerr_circling(hole, r, theta, dragged ? dragged_velocity(hole, r, theta) : 0);
+  if (motion) return motion;
+  s.find("r")->fail(
+      dragged
+          ? fmt::format("must exceed {} (units of M), the horizon, got {}: within it speeds are "
+                        "'against: free_fall'",
+                        short_number(stage.spacetime.horizon()), as_written(*s.find("r")))
+          : fmt::format("is within the ergosphere at that latitude, where nothing is static, "
+                        "got {}; give 'against: dragged'",
+                        as_written(*s.find("r"))));
+  return std::nullopt;
+}
+
+// Reads a keyframe, all of whose speeds are against who has no angular momentum.
+std::optional<PathKey> read_kerr_key(const Item& item, const Stage& stage, Lookup& lookup) {
+  const Section s(item, {"keyframes about a spin", "speed"});
+  const auto at = s.required("at_m"), r = s.required("r", beyond_inner_horizon(stage));
+  const double theta = read_theta(s);
+  if (!at || !r) return std::nullopt;
+  PathKey key{*at, *r, s.angle("azimuth_deg"), {}, {}, theta};
+  const Item* speed = s.one_of({"speed", "lorentz_factor"});
+  if (!speed) return key;
+  if (!(*r > stage.spacetime.horizon()))
+    return speed->fail(
+        "is against who turns with space, which nothing does within the horizon; "
+        "leave it out");
+  const KerrHole& hole = hole_of(stage);
+  const GivenVelocity frame = frame_of(*r, theta, kerr_dragged(hole, *r, theta));
+  const auto own = read_own_celerity(s, stage, frame, lookup);
+  if (!own) return std::nullopt;
+  const auto celerity = celerity_against(frame.celerity, *own);
+  if (!(kerr_motion(hole, *r, theta, celerity).energy > 0))
+    return speed->fail("gives a negative energy there, which paths do not have; type thrown has");
+  set_kerr_rates(hole, key, celerity);
+  return key;
+}
+
 }  // namespace
 
 std::optional<TimedTrajectory> read_spin_rest(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "static about a spin", "rates"});
-  const KerrHole& hole = hole_of(stage).kerr;
+  const KerrHole& hole = hole_of(stage);
   const auto r = s.required("r", outside(stage));
   const double theta = read_theta(s);
   const bool dragged = s.flag("dragged");
@@ -89,7 +161,7 @@ std::optional<TimedTrajectory> read_spin_rest(const Item& item, const Stage& sta
 std::optional<TimedTrajectory> read_spin_circle(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "circular about a spin", "rates", "pace"});
   find_end(s, {"orbits"});
-  const KerrHole& hole = hole_of(stage).kerr;
+  const KerrHole& hole = hole_of(stage);
   if (s.find("speed")) return read_driven_circle(item, s, stage);
   if (const Item* given = s.find("latitude_deg"))
     return given->fail(
@@ -110,24 +182,10 @@ std::optional<TimedTrajectory> read_spin_circle(const Item& item, const Stage& s
                       *rate, false);
 }
 
-// Returns the greatest r below `from` at which a fall with E = 1 turns around outside the horizon, if it
-// does.
-std::optional<double> turn_of_fall(const KerrHole& hole, double from, double momentum,
-                                   double carter) {
-  constexpr int kSteps = 4000;
-  const auto a = static_cast<double>(hole.spin), horizon = static_cast<double>(hole.horizon());
-  for (int k = 1; k < kSteps; ++k) {
-    const double r = from * std::pow(horizon / from, k / static_cast<double>(kSteps));
-    const double p = r * r + a * a - a * momentum;
-    if (p * p < static_cast<double>(hole.delta(r)) * (r * r + carter)) return r;
-  }
-  return std::nullopt;
-}
-
 // Falls from rest far away, or without angular momentum from rest nearby.
 std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "begin", "infall about a spin", "end", "rates", "pace"});
-  const KerrHole& hole = hole_of(stage).kerr;
+  const KerrHole& hole = hole_of(stage);
   const auto a = static_cast<double>(hole.spin);
   const double theta = read_theta(s), sine = std::sin(theta), cosine = std::cos(theta);
   const auto rest_r = s.given("rest_r");
@@ -139,8 +197,7 @@ std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& sta
     if (const Item* given = s.find("angular_momentum"))
       return given->fail("is of a fall from far away; from rest_r all falls without");
     defaults.tau = 0;
-    const auto motion = kerr_circling(hole, *rest_r, theta, dragged_velocity(hole, *rest_r, theta));
-    return falling(s, stage, item, *rest_r, theta, motion.value(), defaults);
+    return falling(s, stage, item, *rest_r, theta, kerr_dragged(hole, *rest_r, theta), defaults);
   }
   const auto from_r = s.required("from_r");
   if (!from_r) return std::nullopt;
@@ -168,7 +225,7 @@ std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& sta
 
 std::optional<TimedTrajectory> read_spin_bound(const Item& item, const Stage& stage, Lookup&) {
   const Section s(item, {"trajectory", "begin", "bound about a spin", "end", "rates", "pace"});
-  const KerrHole& hole = hole_of(stage).kerr;
+  const KerrHole& hole = hole_of(stage);
   const auto least = s.required("periastron", outside(stage));
   const auto most = s.required("apoastron", outside(stage).at_most(s.range("apoastron").high));
   const double inclination = s.angle("inclination_deg");
@@ -191,23 +248,57 @@ std::optional<TimedTrajectory> read_spin_bound(const Item& item, const Stage& st
 std::optional<TimedTrajectory> read_spin_throw(const Item& item, const Stage& stage,
                                                Lookup& lookup) {
   const Section s(item, {"trajectory", "thrown about a spin", "speed", "end", "rates", "pace"});
-  const KerrHole& hole = hole_of(stage).kerr;
+  const KerrHole& hole = hole_of(stage);
   const auto from_r = s.required("from_r", outside(stage));
   const double theta = read_theta(s);
   if (!from_r) return std::nullopt;
-  GivenVelocity frame;
-  frame.r = *from_r, frame.theta = theta;
-  frame.celerity =
-      kerr_circling(hole, *from_r, theta, dragged_velocity(hole, *from_r, theta)).value().celerity;
+  const GivenVelocity frame = frame_of(*from_r, theta, kerr_dragged(hole, *from_r, theta));
   const auto own = read_own_celerity(s, stage, frame, lookup);
   if (!own) return std::nullopt;
-  const KerrMotion motion = kerr_motion(
-      hole, *from_r, theta,
-      celerity_against(frame.celerity, Celerity<GivenFrame>(V3d(own->x, own->y, own->z))));
+  const KerrMotion motion =
+      kerr_motion(hole, *from_r, theta, celerity_against(frame.celerity, *own));
   const auto orbit = made(s, item, [&] { return KerrOrbit(hole, *from_r, theta, motion); });
   const auto timing = orbit ? read_end(s, stage, *orbit, 0) : std::nullopt;
   if (!timing) return std::nullopt;
   return TimedTrajectory{*orbit, *timing, {}};
+}
+
+std::optional<TimedTrajectory> read_spin_velocity(const Item& item, const Stage& stage,
+                                                  Lookup& lookup) {
+  const Section s(item, {"trajectory", "velocity about a spin", "speed", "pace"});
+  using enum MeasuredBy;
+  const auto against = s.word("against", {kDragged, kStatic, kFreeFall});
+  const auto r = s.required("r", beyond_inner_horizon(stage));
+  const double theta = read_theta(s);
+  const auto motion = r ? measuring_motion(s, stage, against, *r, theta) : std::nullopt;
+  if (!motion) return std::nullopt;
+  GivenVelocity frame = frame_of(*r, theta, *motion);
+  if (!(*r > stage.spacetime.horizon())) frame.region = Region::kII;
+  const auto trajectory = read_velocity_trajectory(s, stage, frame, lookup);
+  Timing timing{0, proper_time_in(stage, stage.duration_s)};
+  if (!trajectory || !read_pace(s, *trajectory, timing)) return std::nullopt;
+  return TimedTrajectory{*trajectory, timing, {}};
+}
+
+std::optional<TimedTrajectory> read_spin_path(const Item& item, const Stage& stage,
+                                              Lookup& lookup) {
+  const Section s(item, {"trajectory", "path about a spin", "begin", "end", "rates", "pace"});
+  const Item* list = s.require("keyframes", ": a list of {at_m, r, latitude_deg, azimuth_deg}");
+  const auto items = list ? read_list(*list) : std::nullopt;
+  if (!items) return std::nullopt;
+  std::vector<PathKey> keys;
+  for (const Item& one : *items)
+    if (const auto key = read_kerr_key(one, stage, lookup)) keys.push_back(*key);
+  if (keys.size() < items->size()) return std::nullopt;
+  try {
+    const KerrFlight flight(hole_of(stage), keys);
+    const Defaults whole{flight.begin(), Leg::kInward, flight.begin(), {}, flight.end()};
+    const auto timing = read_timing(s, stage, flight, whole);
+    if (!timing) return std::nullopt;
+    return TimedTrajectory{flight, *timing, {}};
+  } catch (const std::domain_error& error) {
+    return list->fail(std::string("cannot be flown: ") + error.what());
+  }
 }
 
 }  // namespace domefall
