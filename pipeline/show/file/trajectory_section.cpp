@@ -192,15 +192,14 @@ std::optional<TimedTrajectory> read_infall(const Item& item, const Stage& stage,
 using Reader = std::optional<TimedTrajectory> (*)(const Item& item, const Stage& stage,
                                                   Lookup& lookup);
 
-// A Type holds the word for a kind of trajectory, whether flat space has that kind, and its readers
-// near a hole, in a wormhole and about a hole that spins.  A null reader goes with the reason why there is no such motion, as
-// does a charge that has none.
+// A Type holds the word for a kind of trajectory, its readers near a hole, in a wormhole and about a
+// hole that spins, and whether flat space has that kind.  A null reader goes with the reason why there
+// is no such motion, as does a charge that has none.
 struct Type {
   std::string_view name;
-  bool in_flat_space;
-  Reader near_hole, in_wormhole, about_spin;
-  std::string_view not_in_wormhole = {}, not_near_charge = {}, not_when_naked = {};
-  std::string_view not_about_spin = {};
+  Reader near_hole, in_wormhole = nullptr, about_spin = nullptr;
+  bool in_flat_space = false;
+  std::string_view not_in_wormhole{}, not_near_charge{}, not_when_naked{}, not_about_spin{};
 };
 
 constexpr std::string_view kNothingPulls =
@@ -211,52 +210,48 @@ constexpr std::string_view kNoBodies = "bodies move near holes without charge on
 
 // These are the types of trajectory that a show can name.  Those that a body can follow come first.
 constexpr std::array kTypes{
-    Type{"static", true, read_static, read_wormhole_rest, read_spin_rest},
-    Type{"circular", false, read_circular, read_wormhole_circle, read_spin_circle},
-    Type{"parabolic", false, read_parabolic, nullptr, nullptr, kNothingPulls, {}, {}, kNoEscape},
-    Type{"hyperbolic", false, read_hyperbolic, nullptr, nullptr, kNothingPulls, {}, {}, kNoEscape},
-    Type{"bound", false, read_bound, nullptr, read_spin_bound, kNothingPulls},
-    Type{"infall", false, read_infall, read_wormhole_fall, read_spin_fall},
-    Type{"thrown", false, read_thrown, read_wormhole_throw, read_spin_throw},
-    Type{"kruskal",
-         false,
-         read_kruskal,
-         nullptr,
-         nullptr,
-         "a wormhole has no horizon, and no singularity to come from",
-         "the singularity of a charge repels, and nothing comes out of it",
-         {},
-         "what comes out of a hole that spins is not computed"},
-    Type{"spiral",
-         false,
-         read_spiral,
-         nullptr,
-         nullptr,
-         "nothing pulls in a wormhole: give a path, whose keyframes may go around and in",
-         {},
-         "nothing falls into a naked singularity; give a path",
-         "about a hole that spins give a path, whose keyframes may go around and in"},
-    Type{"braked",
-         false,
-         read_braked,
-         nullptr,
-         nullptr,
-         "a path whose last keyframe has speed: 0 comes to a stop in a wormhole",
-         {},
-         {},
-         "a path whose last keyframe has speed: 0 comes to a stop about a hole that spins"},
-    Type{"path", false, read_path, read_wormhole_path, read_spin_path},
-    Type{"velocity", true, read_velocity, read_wormhole_velocity, read_spin_velocity},
-    Type{"body",
-         false,
-         read_with_body,
-         nullptr,
-         nullptr,
-         kNoBodies,
-         kNoBodies,
-         {},
-         "nobody rides a body about a hole that spins yet; give the trajectory that it has"},
-    Type{"continue", true, read_continue, read_continue, read_continue}};
+    Type{"static", read_static, read_wormhole_rest, read_spin_rest, true},
+    Type{"circular", read_circular, read_wormhole_circle, read_spin_circle},
+    Type{.name = "parabolic",
+         .near_hole = read_parabolic,
+         .not_in_wormhole = kNothingPulls,
+         .not_about_spin = kNoEscape},
+    Type{.name = "hyperbolic",
+         .near_hole = read_hyperbolic,
+         .not_in_wormhole = kNothingPulls,
+         .not_about_spin = kNoEscape},
+    Type{.name = "bound",
+         .near_hole = read_bound,
+         .about_spin = read_spin_bound,
+         .not_in_wormhole = kNothingPulls},
+    Type{"infall", read_infall, read_wormhole_fall, read_spin_fall},
+    Type{"thrown", read_thrown, read_wormhole_throw, read_spin_throw},
+    Type{.name = "kruskal",
+         .near_hole = read_kruskal,
+         .not_in_wormhole = "a wormhole has no horizon, and no singularity to come from",
+         .not_near_charge = "the singularity of a charge repels, and nothing comes out of it",
+         .not_about_spin = "what comes out of a hole that spins is not computed"},
+    Type{.name = "spiral",
+         .near_hole = read_spiral,
+         .not_in_wormhole =
+             "nothing pulls in a wormhole: give a path, whose keyframes may go around and in",
+         .not_when_naked = "nothing falls into a naked singularity; give a path",
+         .not_about_spin =
+             "about a hole that spins give a path, whose keyframes may go around and in"},
+    Type{.name = "braked",
+         .near_hole = read_braked,
+         .not_in_wormhole = "a path whose last keyframe has speed: 0 comes to a stop in a wormhole",
+         .not_about_spin =
+             "a path whose last keyframe has speed: 0 comes to a stop about a hole that spins"},
+    Type{"path", read_path, read_wormhole_path, read_spin_path},
+    Type{"velocity", read_velocity, read_wormhole_velocity, read_spin_velocity, true},
+    Type{.name = "body",
+         .near_hole = read_with_body,
+         .not_in_wormhole = kNoBodies,
+         .not_near_charge = kNoBodies,
+         .not_about_spin =
+             "nobody rides a body about a hole that spins yet; give the trajectory that it has"},
+    Type{"continue", read_continue, read_continue, read_continue, true}};
 
 // Says why a type of motion does not exist there.  Nothing is said of one that does.
 std::string_view why_not(const Type& type, const Spacetime& spacetime) {
