@@ -150,19 +150,15 @@ TEST_F(OtherSpaces, NearAChargeWhatDoesNotExistIsNamed) {
 }
 
 TEST_F(OtherSpaces, AChargeIsThatOfAHole) {
-  const std::string rest = "timeline: [{duration_s: 2}]\n";
-  EXPECT_EQ(complaint("black_hole: {charge: 0.5}\n" + rest),
+  const std::string rest = "timeline: [{duration_s: 2, trajectory: {type: static, r: 9}}]\n";
+  EXPECT_EQ(complaint("black_hole: {charge: 0.5}\ntimeline: [{duration_s: 2}]\n"),
             "show.yaml:1:22: black_hole.charge is of a hole, which needs mass_solar");
-  EXPECT_EQ(
-      complaint("black_hole: {mass_solar: 1, charge: 1.2}\n" +
-                std::string("timeline: [{duration_s: 2, trajectory: {type: static, r: 9}}]\n")),
-      "show.yaml:1:37: black_hole.charge must be at most 1, got 1.2: with more no horizon hides "
-      "the singularity; if that is meant, say naked: true");
-  EXPECT_EQ(
-      complaint("black_hole: {mass_solar: 1, charge: 1, naked: true}\n" +
-                std::string("timeline: [{duration_s: 2, trajectory: {type: static, r: 9}}]\n")),
-      "show.yaml:1:47: black_hole.naked is for a charge above 1; with less, a horizon hides the "
-      "singularity");
+  EXPECT_EQ(complaint("black_hole: {mass_solar: 1, charge: 1.2}\n" + rest),
+            "show.yaml:1:37: black_hole.charge must be at most 1, got 1.2: with more no horizon "
+            "hides the singularity; if that is meant, say naked: true");
+  EXPECT_EQ(complaint("black_hole: {mass_solar: 1, charge: 1, naked: true}\n" + rest),
+            "show.yaml:1:47: black_hole.naked is for a charge above 1; with less, a horizon hides "
+            "the singularity");
 }
 
 // ---- a naked singularity ----
@@ -267,29 +263,26 @@ TEST_F(OtherSpaces, WhatIsThrownInAWormholeFallsFreely) {
 
 // Both sides of the throat have the same r.
 TEST_F(OtherSpaces, EventsInAWormholeAreToldByL) {
-  const Show s = read(
-      "wormhole: {radius_km: 1, length: 1}\n"
-      "markers: {throat: {l: 0}, far: {l: -2}, back: {l: 2, leg: inward}}\ntimeline:\n  - "
-      "{duration_s: 10, trajectory: {type: infall, from_l: 5, speed: 0.5, "
-      "to_l: -5}}\n");
+  const auto fall = [&](const char* shape, const char* markers, const char* lasts,
+                        const char* rest) {
+    return show_in(fmt::format("wormhole: {{radius_km: 1, {}}}\n", shape),
+                   fmt::format("  - {{duration_s: {}, trajectory: {{type: infall, from_l: 5, "
+                               "speed: 0.5, {}}}}}\n",
+                               lasts, rest),
+                   fmt::format("markers: {{{}}}\n", markers));
+  };
+  const char* const dngr = "length: 1";
+  const Show s =
+      fall(dngr, "throat: {l: 0}, far: {l: -2}, back: {l: 2, leg: inward}", "10", "to_l: -5");
   ASSERT_EQ(s.markers.size(), 3u);
   EXPECT_NEAR(s.markers[0].at_s, 5, 1e-9);
   EXPECT_NEAR(s.markers[1].at_s, 7, 1e-9);
   EXPECT_NEAR(s.markers[2].at_s, 3, 1e-9);
-  const Show there = read(
-      "wormhole: {radius_km: 1, length: 1}\nmarkers: {throat: {l: 0}}\ntimeline:\n"
-      "  - {duration_s: 10, trajectory: {type: infall, from_l: 5, speed: 0.5, to_l: 0}}\n");
-  EXPECT_NEAR(there.markers[0].at_s, 10, 1e-9);
-  const Show ends = read(
-      "wormhole: {radius_km: 1, length: 1}\nmarkers: {throat: {l: 0}}\ntimeline:\n"
-      "  - {duration_s: throat, trajectory: {type: infall, from_l: 5, speed: 0.5, rate_m_per_s: "
-      "1}}\n");
-  EXPECT_NEAR(ends.timeline[0].duration_s, 5 / 0.5 * std::sqrt(0.75), 1e-9);
-  const Show turns = read(
-      "wormhole: {radius_km: 1, profile: ellis}\nmarkers: {again: {l: 4, leg: "
-      "outward}}\ntimeline:\n"
-      "  - {duration_s: again, trajectory: {type: infall, from_l: 5, speed: 0.5, "
-      "impact_parameter: 2, rate_m_per_s: 1}}\n");
+  EXPECT_NEAR(fall(dngr, "throat: {l: 0}", "10", "to_l: 0").markers[0].at_s, 10, 1e-9);
+  EXPECT_NEAR(fall(dngr, "throat: {l: 0}", "throat", "rate_m_per_s: 1").timeline[0].duration_s,
+              5 / 0.5 * std::sqrt(0.75), 1e-9);
+  const Show turns = fall("profile: ellis", "again: {l: 4, leg: outward}", "again",
+                          "impact_parameter: 2, rate_m_per_s: 1");
   // With l = sqrt(3) cosh u, where the way turns at u = 0, its length is int sqrt(1 + 3 cosh(u)^2) du.
   const auto length = [](double l) {
     constexpr int kSteps = 20000;
