@@ -363,39 +363,6 @@ TEST(PixelAspect, TheCircleOfAFisheyeIsAsHighAsItIsWideOnTheScreen) {
   EXPECT_NEAR(std::acos(direction_at(p, {0.5, 300.5}).v.z), 1.5, 1e-12);
 }
 
-// Every pixel of a cap is in its box and in the spans of its row.
-TEST(PixelAspect, CapsLieInTheirBoxes) {
-  std::mt19937 random(5);
-  for (const Projection& p :
-       {Projection(Stereographic{80, 90, 3, 2}), Projection(Rectilinear{80, 60, 2, 0.5}),
-        Projection(Fisheye{60, 110, 5, 0.5, 2})}) {
-    std::uniform_real_distribution<double> u(0.5, columns(p) + 0.5), v(0.5, rows(p) + 0.5),
-        size(0.01, 0.5);
-    for (int k = 0; k < 40; ++k) {
-      const PixelPosition middle{u(random), v(random)};
-      if (!is_inside(p, middle)) continue;
-      const CameraDirection n = direction_at(p, middle);
-      const double angle = size(random);
-      const CapBox box = cap_box(p, n, angle).value();
-      const CapPlace place{middle.i - 1, middle.j - 1, angle, box.reach, 0, columns(p) - 1};
-      for (int row = 0; row < rows(p); ++row) {
-        const ColumnRange inside = inside_columns(p, row);
-        const CapSpans spans = spans_of(p, place, row, inside);
-        for (int column = inside.first; column <= inside.last; ++column) {
-          const CameraDirection at = direction_at(p, {column + 1.0, row + 1.0});
-          if ((at.v - n.v).length() > 2 * std::sin(angle / 2)) continue;
-          const double x = column + 1 - middle.i, y = row + 1 - middle.j;
-          EXPECT_TRUE(x >= -box.left && x <= box.right && y >= -box.up && y <= box.down);
-          EXPECT_TRUE(std::any_of(spans.span.begin(), spans.span.begin() + spans.count,
-                                  [&](const ColumnRange& span) {
-                                    return column >= span.first && column <= span.last;
-                                  }));
-        }
-      }
-    }
-  }
-}
-
 // Axes are right-handed, so that no face is mirrored.
 TEST(CubemapFaces, AreRectilinearImagesOfTheSameDirections) {
   const Projection p = Cubemap{64};
