@@ -5,6 +5,7 @@
 
 #include "pipeline/base/simd/vector_math.h"
 #include "pipeline/light/kerr_clock.h"
+#include "pipeline/light/kerr_view.h"
 #include "pipeline/light/light_path.h"
 
 namespace domefall {
@@ -44,13 +45,12 @@ class Motion {
     const auto r = static_cast<double>(at.r), theta = static_cast<double>(at.theta);
     a_ = static_cast<double>(at.hole.spin), squares_ = static_cast<double>(at.hole.squares());
     const double sine = std::sin(theta), cosine = std::cos(theta);
-    const double sigma = r * r + static_cast<double>(at.sigma()), root = std::sqrt(sigma);
-    const double s = std::sin(delta / 2), c = std::cos(delta / 2), across = root * 2 * s * c;
+    const double sigma = r * r + static_cast<double>(at.sigma());
+    const double s = std::sin(delta / 2), c = std::cos(delta / 2);
     const auto above = static_cast<double>(at.delta());
-    const double y = across * sine * std::sin(eta);
-    energy = (sigma * s * s + above * c * c + a_ * y) / sigma;
-    carter = across * across;
-    momentum = y + a_ * energy * sine * sine;
+    const KerrConstants of(at, delta, eta);
+    const double across = of.momentum;
+    energy = of.energy, carter = across * across, momentum = of.about_axis;
     c_ = a_ * (a_ * energy - momentum);
     const double polar = across * std::cos(eta),
                  azimuthal = across * std::sin(eta) + a_ * energy * sine;
@@ -119,15 +119,9 @@ class Motion {
 
 LightPath kerr_light_path(const KerrPlace& at, double delta, double eta, double outer) {
   const Motion motion(at, delta, eta);
-  const KerrHole& hole = at.hole;
-  const auto a = static_cast<double>(hole.spin), horizon = static_cast<double>(hole.horizon());
   LightPath path;
   path.energy = motion.energy;
-  // Light that an observer in the hole gets from its other side does not come from region I.
-  const bool inside = static_cast<double>(at.r) < horizon;
-  if (!(motion.energy > 0) ||
-      (inside && !(motion.energy * (horizon * horizon + a * a) > a * motion.momentum)))
-    return path;
+  if (!KerrConstants(at, delta, eta).comes_from_region_one(at)) return path;
   const double least = 1 / outer;
   if (motion.start.w < least && !(motion.start.speed > 0 && motion.reaches(least))) return path;
   path.momentum = std::sqrt(motion.carter);
@@ -139,7 +133,7 @@ LightPath kerr_light_path(const KerrPlace& at, double delta, double eta, double 
   constexpr std::size_t kManyPlaces = 160;
   path.places.reserve(kManyPlaces);
   State state = motion.start;
-  const KerrClock clock(hole);
+  const KerrClock clock(at.hole);
   double psi = 0;
   const auto place = [&] {
     const SineCosine turned = sin_cos(state.angle);

@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "pipeline/light/kerr_ray.h"
+#include "pipeline/light/kerr_request.h"
+#include "pipeline/light/kerr_view.h"
 #include "pipeline/light/lagrange.h"
 
 namespace domefall {
@@ -40,31 +42,19 @@ std::shared_ptr<const KerrPlane> KerrPlaneKeeper::plane(const KerrPlace& at,
   return plane_;
 }
 
-// Returns E, L and K of a ray, and how far its direction is from the edge.
+// Returns E, L and K of a ray.
 KerrPlane::Sight KerrPlane::beginning(double delta, double eta) const {
-  const KerrPlace& from = at();
-  const auto r = static_cast<double>(from.r), a = static_cast<double>(from.hole.spin);
-  const double sine = std::sin(static_cast<double>(from.theta)),
-               sigma = r * r + static_cast<double>(from.sigma());
-  const double s = std::sin(delta / 2), c = std::cos(delta / 2), root = std::sqrt(sigma);
-  const double y = root * sine * 2 * s * c * std::sin(eta);
-  const double p = sigma * s * s + static_cast<double>(from.delta()) * c * c;
+  const KerrConstants of(at(), delta, eta);
   Sight sight{};
-  sight.energy = (p + a * y) / sigma;
-  sight.momentum = root * 2 * s * c;
-  sight.about_axis = y + a * sight.energy * sine * sine;
-  const auto horizon = static_cast<double>(from.hole.horizon());
-  // Light that an observer in the hole gets from its other side does not come from region I.
-  if (r < horizon && !(sight.energy * (horizon * horizon + a * a) > a * sight.about_axis))
-    sight.energy = 0;
+  sight.energy = of.comes_from_region_one(at()) ? of.energy : 0;
+  sight.momentum = of.momentum, sight.about_axis = of.about_axis;
   return sight;
 }
 
 // Returns whether an order is there at all.
 bool KerrPlane::exact_nodes(const KerrDirection& n, std::array<Node, kOrders>& nodes) const {
   for (Node& node : nodes) node.fill(std::nan(""));
-  const auto delta =
-      static_cast<double>(n.edge ? critical_ray(at(), n.eta, *n.edge).delta + n.offset : n.delta);
+  const auto delta = static_cast<double>(kerr_delta(at(), n));
   if (!(beginning(delta, static_cast<double>(n.eta)).energy > 0)) return false;
   std::size_t order = 0;
   for (const KerrPassage& passage : kerr_passages(at(), n, nodes.size()))

@@ -17,6 +17,33 @@ inline KerrDirection kerr_direction_of(const V3d& view) {
   return {std::atan2(beside, -view.x), beside > 0 ? std::atan2(-view.z, -view.y) : 0};
 }
 
+inline double kerr_edge_delta(const KerrPlace& at, double eta) {
+  return static_cast<double>(critical_ray(at, eta, KerrEdge::kSilhouette).delta);
+}
+
+// E, sqrt K and L of light that is one in the tetrad's frame.
+struct KerrConstants {
+  double energy, momentum, about_axis;
+
+  KerrConstants(const KerrPlace& at, double delta, double eta) {
+    const auto r = static_cast<double>(at.r), a = static_cast<double>(at.hole.spin);
+    const double sine = std::sin(static_cast<double>(at.theta)),
+                 sigma = r * r + static_cast<double>(at.sigma());
+    const double s = std::sin(delta / 2), c = std::cos(delta / 2);
+    momentum = std::sqrt(sigma) * 2 * s * c;
+    const double y = momentum * sine * std::sin(eta);
+    energy = (sigma * s * s + static_cast<double>(at.delta()) * c * c + a * y) / sigma;
+    about_axis = y + a * energy * sine * sine;
+  }
+  // Light that an observer in the hole gets from its other side does not come from region I.
+  bool comes_from_region_one(const KerrPlace& at) const {
+    const auto horizon = static_cast<double>(at.hole.horizon()),
+               a = static_cast<double>(at.hole.spin);
+    return energy > 0 && (static_cast<double>(at.r) >= horizon ||
+                          energy * (horizon * horizon + a * a) > a * about_axis);
+  }
+};
+
 // The unit vectors of view in which delta grows, and across that eta.  The view is minus the photon's.
 struct ViewAxes {
   V3d by_delta, across;
