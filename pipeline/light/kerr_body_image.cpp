@@ -204,9 +204,7 @@ double BodySearch::shorter(const KerrPass& pass, const KerrStretch& stretch) con
     const V3d view = (pass.view + stretch.shorter_view * kStep).normalized();
     if (const auto next = rays_.nearest(view, pass.mino, pass.tau)) {
       const KerrStretch there = kerr_stretch(*next);
-      const bool turned = pass.by_delta.cross(pass.across).dot(pass.leaving) *
-                              next->by_delta.cross(next->across).dot(next->leaving) <
-                          0;
+      const bool turned = is_mirrored(pass) != is_mirrored(*next);
       fold = radius_ * std::abs((turned ? -there.shorter : there.shorter) - least) / kStep;
     }
   }

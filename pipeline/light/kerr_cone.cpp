@@ -8,6 +8,7 @@
 
 #include "pipeline/light/kerr_path.h"
 #include "pipeline/light/kerr_sphere.h"
+#include "pipeline/light/kerr_view.h"
 
 namespace domefall {
 namespace {
@@ -122,7 +123,7 @@ KerrCone::KerrCone(const KerrPlace& at) : at_(at), shares_(shares_of(static_cast
   for (double& offset : offsets_) offset = -offset;
   std::ranges::reverse(offsets_);
   for (const double offset : offsets_beside_edge(kOutside)) offsets_.push_back(offset);
-  nodes_.resize(offsets_.size() * kColumns * shares_.size());
+  nodes_.reserve(offsets_.size() * kColumns * shares_.size());
   for (int row = 0; row < rows(); ++row)
     for (int column = 0; column < kColumns; ++column) follow(row, column);
 }
@@ -147,9 +148,7 @@ void KerrCone::follow(int row, int column) {
     over = over || !(node.w > 0) || !std::isfinite(node.null_time) || !std::isfinite(node.x) ||
            (ray.mirrored() && node.w <= horizon);
     if (over) node.w = -1;
-    nodes_[(static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)) *
-               shares_.size() +
-           static_cast<std::size_t>(k)] = node;
+    nodes_.push_back(node);
   }
 }
 
@@ -160,7 +159,7 @@ KerrCone::Direction KerrCone::direction(double row, double column) const {
   const double offset =
       low * high > 0 ? low * std::pow(high / low, part) : low + (high - low) * part;
   const double eta = 2 * pi * column / kColumns;
-  const auto edge = static_cast<double>(critical_ray(at_, eta, KerrEdge::kSilhouette).delta);
+  const double edge = kerr_edge_delta(at_, eta);
   return {std::clamp(edge + offset * (offset > 0 ? pi - edge : edge), 0.0, pi), eta};
 }
 

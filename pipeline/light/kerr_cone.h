@@ -46,7 +46,7 @@ class KerrCone {
  private:
   static constexpr int kColumns = 64;
 
-  void follow(int row, int column);
+  void follow(int row, int column);  // adds the nodes of the next ray
 
   KerrPlace at_;
   // The rows' places beside the edge: delta is edge + offset (pi - edge), or edge (1 + offset) on the

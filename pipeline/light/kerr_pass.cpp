@@ -15,10 +15,6 @@ TetradVector boosted(const TetradVector& u, const TetradVector& x) {
   return {u.t * x.t - along, x.s + u.s * (along / (u.t + 1) - x.t)};
 }
 
-double edge_at(const KerrPlace& at, double eta) {
-  return static_cast<double>(critical_ray(at, eta, KerrEdge::kSilhouette).delta);
-}
-
 // A Turn is a step of the view, by delta and across that.
 struct Turn {
   double by_delta, across;
@@ -35,20 +31,20 @@ V3d turned_view(const KerrPass& pass, const KerrPlace& at, const Turn& turn, dou
   const ViewAxes axes(delta, eta);
   if (pass.event.swept < kWound)
     return (pass.view + axes.by_delta * x + axes.across * y).normalized();
-  const double by_eta = y / std::sin(delta), from_edge = delta - edge_at(at, eta),
-               slope = (edge_at(at, eta + kSmall) - edge_at(at, eta - kSmall)) / (2 * kSmall),
+  const double by_eta = y / std::sin(delta), from_edge = delta - kerr_edge_delta(at, eta),
+               slope = (kerr_edge_delta(at, eta + kSmall) - kerr_edge_delta(at, eta - kSmall)) /
+                       (2 * kSmall),
                most = kMostOfDistance * std::abs(from_edge),
                away = std::clamp(x - slope * by_eta, -most, most);
-  return kerr_view(edge_at(at, eta + by_eta) + from_edge + away, eta + by_eta);
+  return kerr_view(kerr_edge_delta(at, eta + by_eta) + from_edge + away, eta + by_eta);
 }
 
 }  // namespace
 
 KerrBodyRays::KerrBodyRays(const KerrPlace& at, double null_time, const BodyMotion& motion)
     : at_(at), null_time_(null_time), motion_(motion) {
-  const auto sine = static_cast<double>(std::sin(at.theta)),
-             cosine = static_cast<double>(std::cos(at.theta));
-  axes_ = from_columns({sine, 0, cosine}, {cosine, 0, -sine}, {0, 1, 0});
+  const auto theta = static_cast<double>(at.theta);
+  axes_ = kerr_axes({std::sin(theta), 0, std::cos(theta)});
 }
 
 std::optional<KerrBodyPoint> KerrBodyRays::body(double tau) const {
@@ -102,12 +98,9 @@ std::optional<KerrPass> KerrBodyRays::nearest(const V3d& view, double mino, doub
   return std::nullopt;
 }
 
-std::optional<KerrPass> KerrBodyRays::meet(const V3d& from, double from_mino,
-                                           double from_tau) const {
+std::optional<KerrPass> KerrBodyRays::meet(const V3d& view, double mino, double tau) const {
   constexpr int kMost = 16, kHalvings = 6;
   constexpr double kEnough = 1e-10;
-  V3d view = from;
-  double mino = from_mino, tau = from_tau;
   std::optional<KerrPass> at = pass(view, mino, tau);
   for (int i = 0; i < kMost && at; ++i) {
     const double left = at->off.length() + std::abs(at->late);
@@ -122,10 +115,8 @@ std::optional<KerrPass> KerrBodyRays::meet(const V3d& from, double from_mino,
     std::optional<KerrPass> next;
     double part = 1;
     for (int k = 0; k < kHalvings && !next; ++k, part /= 2)
-      next = pass(turned_view(*at, at_, {x, y}, part), std::max(mino / 4, mino + ahead * part),
-                  tau + at->late * part);
-    if (!next) return std::nullopt;
-    view = next->view, mino = next->mino, tau = next->tau;
+      next = pass(turned_view(*at, at_, {x, y}, part),
+                  std::max(at->mino / 4, at->mino + ahead * part), at->tau + at->late * part);
     at = next;
   }
   return std::nullopt;

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "pipeline/light/kerr_body_image.h"
 #include "pipeline/light/kerr_view.h"
 
 namespace domefall {
@@ -160,13 +161,10 @@ std::vector<SpherePiece> kerr_image_of_sphere(const KerrPlace& at, double null_t
   if (!middle) return {};
   constexpr double kAcross = 16, kWound = 2.5, kNarrow = 4;
   const double least = spacing(image.direction),
-               longer = image.solid_angle_per_area / image.angle_per_length,
-               side =
-                   std::min(least, 2 * radius * std::max(longer, image.angle_per_length) / kAcross);
+               side = std::min(least, kerr_size_of_sphere(image, radius) / kAcross);
   const KerrDirection n = kerr_direction_of(image.direction);
-  const auto edge = critical_ray(at, n.eta, KerrEdge::kSilhouette).delta;
-  if (middle->event.swept > kWound &&
-      static_cast<double>(std::abs(n.delta - edge)) < kNarrow * side)
+  const auto delta = static_cast<double>(n.delta), eta = static_cast<double>(n.eta);
+  if (middle->event.swept > kWound && std::abs(delta - kerr_edge_delta(at, eta)) < kNarrow * side)
     return ellipse(rays, *middle, radius, least);
   if (auto pieces = SphereNet(rays, *middle, radius, side).pieces(earlier)) return *pieces;
   return {SpherePiece{{{image.direction}, image.frequency_ratio, 0}, 1, image.direction}};
