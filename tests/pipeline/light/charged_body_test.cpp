@@ -17,28 +17,12 @@ using std::numbers::pi;
 
 constexpr double kAlways = std::numeric_limits<double>::infinity();
 
-// Bodies against T, at rest and on a circle about `axis`.
+// A body at rest against T.
 BodyMotion resting(const ChargedHole& hole, double r, const V3d& direction) {
   const double w = hole.resting_celerity(r), rate = std::sqrt(hole.lapse_squared(r));
   return {[=](double tau) {
             return BodyPoint{direction,        r, tau / rate + hole.tortoise(r),
                              std::hypot(1, w), w, V3d(0, 0, 0)};
-          },
-          -kAlways, kAlways};
-}
-BodyMotion circling(const ChargedHole& hole, double r, const V3d& axis, const V3d& start) {
-  const double q2 = hole.charge * hole.charge, root = std::sqrt(r * r - 3 * r + 2 * q2);
-  const double turning = std::sqrt(r - q2) / root, u_t = r / root;
-  const double out =
-      hole.radial_celerity(hole.at(r), 0, u_t * hole.lapse_squared(r), turning * turning, false);
-  return {[=](double tau) {
-            const double phi = turning / r * tau;
-            return BodyPoint{start * std::cos(phi) + axis.cross(start) * std::sin(phi),
-                             r,
-                             u_t * tau + hole.tortoise(r),
-                             std::sqrt(1 + out * out + turning * turning),
-                             out,
-                             axis * (r * turning)};
           },
           -kAlways, kAlways};
 }
@@ -175,7 +159,7 @@ TEST(ChargedBodyImage, InItsPlaneIsShiftedByTheImpactParameterOfItsLight) {
         const double phi = 2 * pi * (k + 0.3) / 8;
         const auto image = image_of_body(
             ChargedPlaceView{hole, far}, 0,
-            circling(hole, r, V3d(0, 0, 1), V3d(std::cos(phi), std::sin(phi), 0)), order, 0);
+            circling_body(hole, r, V3d(0, 0, 1), V3d(std::cos(phi), std::sin(phi), 0)), order, 0);
         ASSERT_TRUE(image);
         const double b = far * image->direction.y / energy_of(hole, far, image->direction);
         const double redder =

@@ -8,31 +8,13 @@
 
 #include "pipeline/light/kerr_sphere_image.h"
 #include "pipeline/light/kerr_view.h"
-#include "pipeline/spacetime/charged.h"
+#include "tests/pipeline/light/resting_body.h"
 #include "trajectories/kerr_orbit.h"
 
 namespace domefall {
 namespace {
 
 using std::numbers::pi;
-
-// A circle about a charge, as charged_body_test has it.
-BodyMotion circling(const ChargedHole& hole, double r, const V3d& axis, const V3d& start) {
-  const double q2 = hole.charge * hole.charge, root = std::sqrt(r * r - 3 * r + 2 * q2);
-  const double turning = std::sqrt(r - q2) / root, u_t = r / root;
-  const double out =
-      hole.radial_celerity(hole.at(r), 0, u_t * hole.lapse_squared(r), turning * turning, false);
-  return {[=](double tau) {
-            const double phi = turning / r * tau;
-            return BodyPoint{start * std::cos(phi) + axis.cross(start) * std::sin(phi),
-                             r,
-                             u_t * tau,
-                             std::sqrt(1 + out * out + turning * turning),
-                             out,
-                             axis * (r * turning)};
-          },
-          -HUGE_VAL, HUGE_VAL};
-}
 
 TEST(KerrBodyImages, AreThoseWithoutASpin) {
   const ChargedHole hole(1, 0.4);
@@ -41,7 +23,7 @@ TEST(KerrBodyImages, AreThoseWithoutASpin) {
     const V3d axis = V3d(0.3, -0.9, 0.2).normalized(),
               start = axis.cross(V3d(0, 0, 1)).normalized(),
               turned = start * std::cos(phi) + axis.cross(start) * std::sin(phi);
-    const BodyMotion motion = circling(hole, 8, axis, turned);
+    const BodyMotion motion = circling_body(hole, 8, axis, turned);
     const std::vector<BodyImage> found = kerr_body_images(at, 50, motion, 1e-3);
     ASSERT_GE(found.size(), 3U);
     for (std::size_t order = 0; order < found.size() && found[order].psi < 8.5; ++order) {
@@ -60,23 +42,25 @@ TEST(KerrBodyImages, AreThoseWithoutASpin) {
   }
 }
 
-// What keeps its r and latitude, from an azimuth on, as an observer in the tetrad at `at` knows it.
+// A point of a motion as an observer in the tetrad at `at` knows it.
+BodyPoint body_point(const KerrPlace& at, const OrbitPoint& point) {
+  const auto theta = static_cast<double>(at.theta);
+  const M33d axes = from_columns({std::sin(theta), 0, std::cos(theta)},
+                                 {std::cos(theta), 0, -std::sin(theta)}, {0, 1, 0});
+  const double s = std::sin(point.theta), c = std::cos(point.theta), phi = point.azimuth;
+  const V3d place(s * std::cos(phi), s * std::sin(phi), c),
+      south(c * std::cos(phi), c * std::sin(phi), -s), around(-std::sin(phi), std::cos(phi), 0);
+  const V3d momentum = place.cross(south * point.celerity.y + around * point.celerity.z) * point.r;
+  return {apply_transposed(axes, place), point.r,          double(point.null_time),
+          gamma_of(point.celerity),      point.celerity.x, apply_transposed(axes, momentum)};
+}
+
+// What keeps its r and latitude, from an azimuth on.
 BodyMotion circling(const KerrPlace& at, const KerrCircling& circle, double azimuth) {
-  const auto sine = static_cast<double>(std::sin(at.theta)),
-             cosine = static_cast<double>(std::cos(at.theta));
-  const M33d axes = from_columns({sine, 0, cosine}, {cosine, 0, -sine}, {0, 1, 0});
   return {[=](double tau) {
-            const OrbitPoint point = circle.at(tau);
-            const double phi = azimuth + point.azimuth, s = std::sin(point.theta),
-                         c = std::cos(point.theta);
-            const V3d place(s * std::cos(phi), s * std::sin(phi), c),
-                south(c * std::cos(phi), c * std::sin(phi), -s),
-                around(-std::sin(phi), std::cos(phi), 0);
-            const V3d momentum =
-                place.cross(south * point.celerity.y + around * point.celerity.z) * circle.r;
-            return BodyPoint{
-                apply_transposed(axes, place), circle.r,         double(point.null_time),
-                gamma_of(point.celerity),      point.celerity.x, apply_transposed(axes, momentum)};
+            OrbitPoint point = circle.at(tau);
+            point.azimuth += azimuth;
+            return body_point(at, point);
           },
           -HUGE_VAL,
           HUGE_VAL,
@@ -165,35 +149,21 @@ TEST(KerrBodyImages, AreAsBrightAsTheirRaysAreWide) {
 TEST(KerrBodyImages, AreSeenWithinTheHole) {
   const KerrHole hole{0.8L, 0};
   const double theta = 1.3;
-  const KerrMotion dragged =
-      kerr_circling(hole, 6, theta, dragged_velocity(hole, 6, theta)).value();
-  const KerrOrbit orbit(hole, 6, theta, dragged);
+  const KerrOrbit orbit(hole, 6, theta, kerr_dragged(hole, 6, theta));
   const OrbitPoint passes = orbit.at(orbit.time_at(1.6, Leg::kInward).value());
   const double crosses = double(passes.null_time);
   const auto seen_from = [&](double r, double null_time) {
     const KerrPlace at{hole, r, 1.2};
-    const auto sine = static_cast<double>(std::sin(at.theta)),
-               cosine = static_cast<double>(std::cos(at.theta));
-    const M33d axes = from_columns({sine, 0, cosine}, {cosine, 0, -sine}, {0, 1, 0});
-    const BodyMotion motion{
-        [&](double tau) {
-          OrbitPoint point = orbit.at(tau);
-          point.azimuth -= passes.azimuth;
-          const double s = std::sin(point.theta), c = std::cos(point.theta);
-          const V3d place(s * std::cos(point.azimuth), s * std::sin(point.azimuth), c),
-              south(c * std::cos(point.azimuth), c * std::sin(point.azimuth), -s),
-              around(-std::sin(point.azimuth), std::cos(point.azimuth), 0);
-          const V3d momentum =
-              place.cross(south * point.celerity.y + around * point.celerity.z) * point.r;
-          return BodyPoint{
-              apply_transposed(axes, place), point.r,          double(point.null_time),
-              gamma_of(point.celerity),      point.celerity.x, apply_transposed(axes, momentum)};
-        },
-        orbit.birth(),
-        orbit.death(),
-        {},
-        0,
-        HUGE_VAL};
+    const BodyMotion motion{[&](double tau) {
+                              OrbitPoint point = orbit.at(tau);
+                              point.azimuth -= passes.azimuth;
+                              return body_point(at, point);
+                            },
+                            orbit.birth(),
+                            orbit.death(),
+                            {},
+                            0,
+                            HUGE_VAL};
     return kerr_body_images(at, null_time, motion, 1e-3);
   };
   double last = 7;

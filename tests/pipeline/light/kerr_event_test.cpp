@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <vector>
@@ -25,22 +26,11 @@ struct Ray {
 
 // Returns the event at about that Mino time.
 SchildEvent schild_event(const Ray& ray, double mino) {
-  const double a = ray.a, r = ray.r, s = std::sin(ray.theta), c = std::cos(ray.theta);
-  const double sigma = r * r + a * a * c * c, root = std::sqrt(sigma), gap = r * r - 2 * r + a * a;
-  const double n = 1 + std::cos(ray.delta), l = (1 - std::cos(ray.delta)) / 2;
-  const double sine = std::sin(ray.delta), up = sine * std::cos(ray.eta),
-               side = sine * std::sin(ray.eta);
-  const double kv = n * (r * r + a * a) / sigma + side * a * s / root;
-  const double kr = n * gap / (2 * sigma) - l, kt = up / root,
-               kp = n * a / sigma + side / (s * root);
-  KerrSchildState start{r * s, a * s, r * c, 0, 0, 0};
-  const V3d k(kr * s + r * c * kt - a * s * kp, a * c * kt + r * s * kp, kr * c - r * s * kt);
-  KerrSchild hole{a, 0, 0};
-  const V3d null = hole.null(start, r);
-  const double f = hole.strength(start, r), along = (kv - kr) + null.dot(k);
-  hole.energy = (kv - kr) - f * along;
-  const V3d p = k + null * (f * along);
-  EventState state{r * s, a * s, r * c, p.x, p.y, p.z, 0, 0};
+  const double a = ray.a, r = ray.r;
+  const KerrSchildStart start = kerr_schild_start(a, 0, r, ray.theta, ray.delta, ray.eta);
+  const KerrSchild& hole = start.hole;
+  EventState state{};
+  std::ranges::copy(start.state, state.begin());
   const auto rates = [&](const EventState& at, EventState& change, double) {
     KerrSchildState place, rate;
     std::copy_n(at.begin(), 6, place.begin());

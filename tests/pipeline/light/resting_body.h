@@ -1,4 +1,4 @@
-// A body that stays where it is.
+// Bodies that rest or circle freely.
 #pragma once
 
 #include <cmath>
@@ -6,6 +6,7 @@
 
 #include "pipeline/light/body_image.h"
 #include "pipeline/light/emission_time.h"
+#include "pipeline/spacetime/charged.h"
 #include "pipeline/spacetime/schwarzschild.h"
 
 namespace domefall {
@@ -24,6 +25,25 @@ inline BodyMotion resting_body(double r, const V3d& direction) {
                              V3d(0, 0, 0)};
           },
           -kForEver, kForEver};
+}
+
+// Against T, near a charge, on a circle about `axis`; t = 0 at tau = 0.
+inline BodyMotion circling_body(const ChargedHole& hole, double r, const V3d& axis,
+                                const V3d& start) {
+  const double q2 = hole.charge * hole.charge, root = std::sqrt(r * r - 3 * r + 2 * q2);
+  const double turning = std::sqrt(r - q2) / root, u_t = r / root;
+  const double out =
+      hole.radial_celerity(hole.at(r), 0, u_t * hole.lapse_squared(r), turning * turning, false);
+  return {[=](double tau) {
+            const double phi = turning / r * tau;
+            return BodyPoint{start * std::cos(phi) + axis.cross(start) * std::sin(phi),
+                             r,
+                             u_t * tau + hole.tortoise(r),
+                             std::sqrt(1 + out * out + turning * turning),
+                             out,
+                             axis * (r * turning)};
+          },
+          -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace domefall
