@@ -10,8 +10,14 @@
 
 #include "pipeline/light/exact_azimuth.h"
 #include "pipeline/light/ray_orbits.h"
+#include "trajectories/directions.h"
 
 namespace domefall {
+
+inline V3d random_direction(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  return V3d(normal(random), normal(random), normal(random)).normalized();
+}
 
 class RandomRays {
  public:

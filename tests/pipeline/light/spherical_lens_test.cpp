@@ -11,6 +11,7 @@
 #include "pipeline/light/charged_lens.h"
 #include "pipeline/light/lens_store.h"
 #include "pipeline/light/wormhole_azimuth.h"
+#include "tests/pipeline/light/random_rays.h"
 #include "trajectories/static_observer.h"
 
 namespace domefall {
@@ -71,11 +72,6 @@ std::string name_of(const ObserverState& o) {
   for (const double p : o.spacetime.parameters()) name += " " + std::to_string(p);
   return name + " r " + std::to_string(o.r) + " l " + std::to_string(o.l) + " " +
          region_name(o.region);
-}
-
-V3d random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  return V3d(normal(random), normal(random), normal(random)).normalized();
 }
 
 // The exact azimuth of a direction, and the energy of its light, without any table.
