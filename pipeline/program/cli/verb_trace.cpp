@@ -11,9 +11,9 @@
 #include "pipeline/base/csv_file.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/light/ray_request.h"
-#include "pipeline/program/cli/charged_ray_table.h"
 #include "pipeline/program/cli/number_in.h"
 #include "pipeline/program/cli/option_types.h"
+#include "pipeline/program/cli/spin_ray_table.h"
 #include "pipeline/program/cli/verbs.h"
 #include "pipeline/program/cli/wormhole_ray_table.h"
 
@@ -95,12 +95,12 @@ void print_cell(double value) {
 }
 
 void trace(const std::string& file, TraceMethod method, const TraceOptions& options) {
-  if (is_charged_ray_table(CsvFile(file))) {
+  if (is_spin_ray_table(CsvFile(file))) {
     if (is_integrator(method))
       throw InputError(
           "rays near a charge or a spinning hole are traced by the exact integral, not by an "
           "integrator");
-    trace_charged_rays(file);
+    trace_spin_rays(file);
     return;
   }
   RayTable table(file);

@@ -151,7 +151,7 @@ TEST(KerrBodyImages, AreSeenWithinTheHole) {
   const double theta = 1.3;
   const KerrOrbit orbit(hole, 6, theta, kerr_dragged(hole, 6, theta));
   const OrbitPoint passes = orbit.at(orbit.time_at(1.6, Leg::kInward).value());
-  const double crosses = double(passes.null_time);
+  const auto crosses = double(passes.null_time);
   const auto seen_from = [&](double r, double null_time) {
     const KerrPlace at{hole, r, 1.2};
     const BodyMotion motion{[&](double tau) {

@@ -1,4 +1,4 @@
-#include "pipeline/program/cli/charged_ray_table.h"
+#include "pipeline/program/cli/spin_ray_table.h"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,13 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/light/kerr_ray.h"
 #include "pipeline/light/kerr_request.h"
 #include "pipeline/light/ray_request.h"
 #include "pipeline/light/traced_spin.h"
-#include "pipeline/program/cli/kerr_ray_table.h"
 
 namespace domefall {
 namespace {
@@ -59,11 +60,33 @@ void print_answer(const TracedSpinRay& ray) {
   fmt::print(",{},{:.17g}\n", ray.turns, ray.mino);
 }
 
+// Prints the cells of a ray's k-th passage, which are empty where there is none.
+void print_passage(const KerrQuestion& asked, int k) {
+  const std::vector<KerrPassage> passages = kerr_passages(asked.at, asked.direction);
+  if (k >= static_cast<int>(passages.size())) {
+    fmt::print(",,,,,,,,\n");
+    return;
+  }
+  const KerrPassage& passage = passages[static_cast<std::size_t>(k)];
+  const KerrHole& hole = asked.at.hole;
+  fmt::print(",{:.17g},{:.17g},{:.17g},{}", passage.r, passage.phi, passage.null_time,
+             passage.outgoing ? 1 : 0);
+  for (const bool prograde : {true, false}) {
+    const std::optional<double> shift = circling_shift(hole, passage, prograde);
+    fmt::print("{}", shift ? fmt::format(",{:.17g}", *shift) : ",");
+  }
+  for (const bool prograde : {true, false})
+    fmt::print("{}", hole.charge == 0
+                         ? fmt::format(",{:.17g}", page_thorne_flux(hole, passage.r, prograde))
+                         : ",");
+  fmt::print("\n");
+}
+
 }  // namespace
 
-bool is_charged_ray_table(const CsvFile& rows) { return rows.has("spin") && rows.has("charge"); }
+bool is_spin_ray_table(const CsvFile& rows) { return rows.has("spin") && rows.has("charge"); }
 
-void trace_charged_rays(const std::string& file) {
+void trace_spin_rays(const std::string& file) {
   CsvFile rows(file, {"spin", "charge", "r", "theta", "delta", "eta"});
   const bool passages = rows.has_as_written("k");  // K is a constant of rays
   for (const char* column : kInput) fmt::print("{},", column);
@@ -88,7 +111,7 @@ void trace_charged_rays(const std::string& file) {
     if (traced)
       print_answer(*traced);
     else if (asked)
-      print_kerr_passage(*asked, k);
+      print_passage(*asked, k);
     else
       fmt::print("{}\n", std::string(8, ','));
   }

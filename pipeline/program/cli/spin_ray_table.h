@@ -9,9 +9,9 @@
 namespace domefall {
 
 // Says whether a table is of such rays, by its columns.
-bool is_charged_ray_table(const CsvFile& rows);
+bool is_spin_ray_table(const CsvFile& rows);
 
 // Prints the answer, with as many rows.  Throws InputError, with the line, for cells that are no ray.
-void trace_charged_rays(const std::string& file);
+void trace_spin_rays(const std::string& file);
 
 }  // namespace domefall
