@@ -103,13 +103,16 @@ RayRequest ray_at_edge(TraceObserver observer, const Radius& at, std::string_vie
   return q;
 }
 
+void require_delta(long double delta, long double edge, long double offset) {
+  const long double own = edge + offset;
+  if (!(std::abs(delta - own) <= 1e-9L * (edge + std::abs(offset))))
+    throw InputError(fmt::format("delta is {}, and edge and offset give {}; leave one of them out",
+                                 static_cast<double>(delta), static_cast<double>(own)));
+}
+
 void require_delta(const RayRequest& at_edge, long double delta) {
-  constexpr double kSame = 1e-9;
-  const double place = edge_delta(at_edge.observer, at_edge.at, at_edge.edge.value());
-  const double own = place + at_edge.offset, given = static_cast<double>(delta);
-  if (!(std::abs(given - own) <= kSame * (place + std::abs(at_edge.offset))))
-    throw InputError(
-        fmt::format("delta is {}, and edge and offset give {}; leave one of them out", given, own));
+  require_delta(delta, edge_delta(at_edge.observer, at_edge.at, at_edge.edge.value()),
+                at_edge.offset);
 }
 
 }  // namespace domefall

@@ -35,8 +35,9 @@ RayRequest ray_at_angle(TraceObserver observer, const Radius& at, long double de
 RayRequest ray_at_edge(TraceObserver observer, const Radius& at, std::string_view edge,
                        double offset);
 
-// Refuses an angle delta, given beside the edge of such a ray, that is not the ray's own.  It may
-// not differ by more than 1e-9 of the edge's angle and the offset together.
+// Refuses an angle delta, given beside an edge, that is not the edge's plus the offset.  It may not
+// differ by more than 1e-9 of the edge's angle and the offset together.
+void require_delta(long double delta, long double edge, long double offset);
 void require_delta(const RayRequest& at_edge, long double delta);
 
 }  // namespace domefall

@@ -9,6 +9,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/light/kerr_ray.h"
 #include "pipeline/light/kerr_request.h"
+#include "pipeline/light/ray_request.h"
 #include "pipeline/light/traced_charge.h"
 
 namespace domefall {
@@ -18,10 +19,8 @@ using std::numbers::pi;
 
 // Throws InputError unless a delta that is given with an edge is the edge's plus the offset.
 void require_same_delta(const SpinRay& ray, long double own) {
-  if (!ray.delta) return;
-  if (!(std::abs(*ray.delta - own) <= 1e-9L * (own + 2 * std::abs(ray.offset.value_or(0)))))
-    throw InputError(fmt::format("delta is {}, and edge and offset give {}; leave one of them out",
-                                 static_cast<double>(*ray.delta), static_cast<double>(own)));
+  const long double offset = ray.offset.value_or(0);
+  if (ray.delta) require_delta(*ray.delta, own - offset, offset);
 }
 
 long double delta_of(const SpinRay& ray) {

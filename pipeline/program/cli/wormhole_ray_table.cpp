@@ -31,10 +31,8 @@ WormholeRequest wormhole_ray_of(const CsvFile& rows) {
   }
   const WormholeRequest request =
       wormhole_ray_at_edge(place, edge, static_cast<double>(number("offset")));
-  const auto delta = static_cast<double>(given("delta").value_or(request.delta));
-  if (!(std::abs(delta - request.delta) <= 1e-9 * (request.delta + 2 * std::abs(request.offset))))
-    throw InputError(fmt::format("delta is {}, and edge and offset give {}; leave one of them out",
-                                 delta, request.delta));
+  if (const auto delta = given("delta"))
+    require_delta(*delta, request.delta - request.offset, request.offset);
   return request;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "pipeline/base/errors.h"
 #include "pipeline/light/kerr_request.h"
 #include "pipeline/light/ray_request.h"
 #include "pipeline/program/python/arguments.h"
@@ -46,6 +47,8 @@ long double Decimals::rest(std::size_t k) const {
   return texts_.empty() ? 0 : lost_digits(texts_[k]);
 }
 
+namespace {
+
 std::string place_of(std::size_t k, const std::vector<py::ssize_t>& shape) {
   std::vector<std::size_t> indices(shape.size());
   for (std::size_t axis = shape.size(); axis-- > 0;) {
@@ -54,6 +57,19 @@ std::string place_of(std::size_t k, const std::vector<py::ssize_t>& shape) {
     k /= length;
   }
   return indices.empty() ? std::string() : fmt::format("ray [{}]: ", fmt::join(indices, ", "));
+}
+
+}  // namespace
+
+void each_ray(std::size_t count, const std::vector<py::ssize_t>& shape,
+              const std::function<void(std::size_t)>& ray) {
+  for (std::size_t k = 0; k < count; ++k) {
+    try {
+      ray(k);
+    } catch (const InputError& error) {
+      throw InputError(place_of(k, shape) + error.what());
+    }
+  }
 }
 
 std::vector<py::array> broadcast(const std::vector<py::object>& values) {

@@ -3,6 +3,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,10 @@ class Decimals {
   pybind11::array_t<long double> numbers_;
 };
 
-// Returns "ray [2, 5]: " for the element of that number in an array of that shape.
-std::string place_of(std::size_t k, const std::vector<pybind11::ssize_t>& shape);
+// Calls ray(k) for each of `count` elements in an array of that shape.  An InputError begins with "ray
+// [2, 5]: " and the like.
+void each_ray(std::size_t count, const std::vector<pybind11::ssize_t>& shape,
+              const std::function<void(std::size_t)>& ray);
 
 // Broadcasts values against each other.
 std::vector<pybind11::array> broadcast(const std::vector<pybind11::object>& values);

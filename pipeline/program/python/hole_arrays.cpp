@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/light/ray_request.h"
 #include "pipeline/light/traced_spin.h"
 #include "pipeline/light/traced_wormhole.h"
 #include "pipeline/program/python/arguments.h"
@@ -35,18 +36,6 @@ std::optional<long double> given(const Decimals& decimals, std::size_t k) {
 
 double or_absent(const std::optional<long double>& number) {
   return number ? static_cast<double>(*number) : kAbsent;
-}
-
-// Calls ray(k) for each element, and names it in an InputError.
-template <class Ray>
-void each_ray(std::size_t count, const std::vector<py::ssize_t>& shape, const Ray& ray) {
-  for (std::size_t k = 0; k < count; ++k) {
-    try {
-      ray(k);
-    } catch (const InputError& error) {
-      throw InputError(place_of(k, shape) + error.what());
-    }
-  }
 }
 
 std::vector<RecordColumn> record(std::initializer_list<const char*> names) {
@@ -77,14 +66,6 @@ void add_spin_ray(RecordArray& records, const SpinRay& asked, const TracedSpinRa
     records.add(value);
   records.add(ray.turns);
   records.add(ray.sky ? ray.mino : kAbsent);
-}
-
-// Throws InputError unless a delta that is given with an edge is the ray's.
-void require_own_delta(const WormholeRequest& request, const std::optional<long double>& delta) {
-  const auto own = static_cast<double>(delta.value_or(request.delta));
-  if (!(std::abs(own - request.delta) <= 1e-9 * (request.delta + 2 * std::abs(request.offset))))
-    throw InputError(fmt::format("delta is {}, and edge and offset give {}; leave one of them out",
-                                 own, request.delta));
 }
 
 }  // namespace
@@ -144,7 +125,7 @@ py::array trace_wormhole_arrays(const WormholeArrays& rays, const std::string& m
       return;
     }
     asked[k] = wormhole_ray_at_edge(place, edges[k], static_cast<double>(from.value_or(0)));
-    require_own_delta(asked[k], own);
+    if (own) require_delta(*own, asked[k].delta - asked[k].offset, asked[k].offset);
   });
   RecordArray records(record({"profile", "rho", "a", "m", "l", "delta", "edge", "offset", "origin",
                               "azimuth", "slope", "one_plus_z", "amplification"}),

@@ -38,7 +38,8 @@ class GivenRays {
     const Decimals radii(all[0], "r"), deltas(all[1], "delta"), offsets(all[3], "offset");
     edges = texts(all[2]);
     observers = texts(all[4]);
-    for (std::size_t k = 0; k < edges.size(); ++k) add(k, radii, deltas, offsets);
+    each_ray(edges.size(), shape,
+             [&](std::size_t k) { requests.push_back(ray(k, radii, deltas, offsets)); });
   }
 
   std::vector<py::ssize_t> shape;
@@ -46,20 +47,15 @@ class GivenRays {
   std::vector<RayRequest> requests;
 
  private:
-  void add(std::size_t k, const Decimals& radii, const Decimals& deltas, const Decimals& offsets) {
-    try {
-      const TraceObserver observer = trace_observer(observers[k]);
-      const Radius at = radii.radius(k);
-      if (edges[k].empty()) {
-        requests.push_back(ray_at_angle(observer, at, deltas.number(k)));
-        return;
-      }
-      requests.push_back(
-          ray_at_edge(observer, at, edges[k], static_cast<double>(offsets.number(k))));
-      if (deltas.is_given(k)) require_delta(requests.back(), deltas.number(k));
-    } catch (const InputError& error) {
-      throw InputError(place_of(k, shape) + error.what());
-    }
+  RayRequest ray(std::size_t k, const Decimals& radii, const Decimals& deltas,
+                 const Decimals& offsets) const {
+    const TraceObserver observer = trace_observer(observers[k]);
+    const Radius at = radii.radius(k);
+    if (edges[k].empty()) return ray_at_angle(observer, at, deltas.number(k));
+    const RayRequest request =
+        ray_at_edge(observer, at, edges[k], static_cast<double>(offsets.number(k)));
+    if (deltas.is_given(k)) require_delta(request, deltas.number(k));
+    return request;
   }
 };
 
