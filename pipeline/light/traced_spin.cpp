@@ -97,7 +97,16 @@ TracedSpinRay trace_without_spin(const SpinRay& asked) {
 
 }  // namespace
 
-KerrQuestion kerr_question(const SpinRay& ray) {
+std::optional<KerrQuestion> kerr_question(const SpinRay& ray) {
+  if (ray.hole.spin != 0 && ray.r > 0 && ray.r <= ray.hole.inner_horizon()) {
+    constexpr long double kOutside = 3;
+    kerr_place(ray.hole, kOutside, ray.theta);
+    if (ray.edge.empty())
+      kerr_direction(delta_of(ray), ray.eta);
+    else
+      require_edge(ray.edge);
+    return std::nullopt;
+  }
   KerrQuestion question{kerr_place(ray.hole, ray.r, ray.theta), {}};
   if (ray.edge.empty()) {
     question.direction = kerr_direction(delta_of(ray), ray.eta);
@@ -111,13 +120,9 @@ KerrQuestion kerr_question(const SpinRay& ray) {
 
 TracedSpinRay trace_spin_ray(const SpinRay& asked) {
   if (asked.hole.spin == 0) return trace_without_spin(asked);
-  if (asked.r <= asked.hole.inner_horizon()) {
-    // Nothing is said there, but of a ray.
-    if (!asked.edge.empty()) require_edge(asked.edge);
-    return {};
-  }
-  const KerrQuestion question = kerr_question(asked);
-  const TracedKerr ray = trace_kerr(question.at, question.direction);
+  const std::optional<KerrQuestion> question = kerr_question(asked);
+  if (!question) return {};
+  const TracedKerr ray = trace_kerr(question->at, question->direction);
   if (ray.origin == KerrOrigin::kPastHorizon) return {"H", "", std::abs(ray.energy)};
   return {ray.origin == KerrOrigin::kOwn ? "I" : "III",
           "",

@@ -34,11 +34,12 @@ struct TracedSpinRay {
 // Throws InputError for what is no ray.
 TracedSpinRay trace_spin_ray(const SpinRay& asked);
 
-// Returns a ray's place and direction.  Throws InputError for what is no ray.
 struct KerrQuestion {
   KerrPlace at;
   KerrDirection direction;
 };
-KerrQuestion kerr_question(const SpinRay& ray);
+// Returns a ray's place and direction, or nothing inside the inner horizon of a hole that spins.  Throws
+// InputError for what is no ray.
+std::optional<KerrQuestion> kerr_question(const SpinRay& ray);
 
 }  // namespace domefall

@@ -19,6 +19,13 @@ right "$passages" spin,charge,k,outgoing \
 columns=spin,charge,r,theta,delta,eta,edge,offset
 refused '0.9,0.5,5,1,1,0,,' 'spin.2 . charge.2 must be at most 1'
 refused '1.1,0,5,1,1,0,,' 'spin.2 . charge.2 must be at most 1'
+# Nothing is said inside the inner horizon, but what is no ray is refused there, too.
+refused '0.9,0.5,1,1,1,0,,' 'spin.2 . charge.2 must be at most 1'
+refused '0.6,0,-3,1,1,0,,' 'r must be above the inner horizon, 0.2'
+refused '0.6,0,0.1,4,1,0,,' 'theta must be from 0 to pi'
+refused '0.6,0,0.1,1,4,0,,' 'delta must be from 0 to pi'
+refused '0.6,0,0.1,1,,0,,' 'delta'
+refused '0.6,0,0.1,1,,0,inner,0' 'edge must be silhouette, region3 or empty'
 refused '0.5,0,5,4,1,0,,' 'theta must be from 0 to pi'
 refused '0.5,0,5,1,4,0,,' 'delta must be from 0 to pi'
 refused '0.5,0,5,1,,0,region3,0' 'there is no edge region3 at this r'

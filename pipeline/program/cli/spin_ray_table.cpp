@@ -100,7 +100,7 @@ void trace_spin_rays(const std::string& file) {
       const SpinRay ray = ray_of(rows);
       if (!passages)
         traced = trace_spin_ray(ray);
-      else if (ray.hole.spin == 0 || ray.r > ray.hole.inner_horizon())
+      else
         asked = kerr_question(ray);
     } catch (const InputError& error) {
       rows.fail(error.what());
