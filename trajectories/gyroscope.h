@@ -1,8 +1,9 @@
 // A Gyroscope is carried by an observer near a hole, and keeps its direction: it is transported
 // parallel to itself in free fall, and after Fermi and Walker with engines.
 //
-// Along the axes of the reference tetrad (kerr_motion.h) u = gamma T + c, and the axes themselves change by T' = alpha, e_j' = alpha_j T + rho x e_j.  Those of the observer, boosted
-// by c, turn against gyroscopes by
+// Along the axes of the reference tetrad (kerr_motion.h) u = gamma T + c, and the axes themselves
+// change by T' = alpha, e_j' = alpha_j T + rho x e_j.  Those of the observer, boosted by c, turn against
+// gyroscopes by
 //
 //     Omega = rho + c x (alpha + A)/(1 + gamma),     A = c' + gamma alpha + rho x c
 //

@@ -1,6 +1,6 @@
 // The report measures with random rays, each of which has its truth from reference_ray() or, near a
-// charge and in a wormhole, from reference_swept.h, and about a spin from reference_spin.h.  They are classed by where the observer is and by a
-// kind of difficulty.
+// charge and in a wormhole, from reference_swept.h, and about a spin from reference_spin.h.  They are
+// classed by where the observer is and by a kind of difficulty.
 #pragma once
 
 #include <span>
@@ -39,8 +39,8 @@ struct RayClass {
   const char* region;
   Difficulty difficulty;
   const char* name;  // of the difficulty
-  // Of r or, in a wormhole, of l.  Near a charge and about a spin it is the distance from the outer horizon over its
-  // r, or between the horizons the part of the way from the inner one.
+  // Of r or, in a wormhole, of l.  Near a charge and about a spin it is the distance from the outer
+  // horizon over its r, or between the horizons the part of the way from the inner one.
   double r_least, r_most;
 };
 std::span<const RayClass> ray_classes();

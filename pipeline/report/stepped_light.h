@@ -1,5 +1,6 @@
-// These functions follow light near a charge, in a wormhole and about a spin step by step, from the equations of motion
-// alone.  They share nothing with pipeline/light, and show what its integrals and tables save.
+// These functions follow light near a charge, in a wormhole and about a spin step by step, from the
+// equations of motion alone.  They share nothing with pipeline/light, and show what its integrals and
+// tables save.
 //
 //     a charge     w'' = -w + 3 w^2 - 2 q^2 w^3 along the azimuth, with w = 1/r
 //     a wormhole   l'' = b^2 r'/r^3 and phi' = b/r^2 along the ray, with b = r sin(delta)

@@ -21,7 +21,7 @@ namespace domefall {
 namespace {
 
 // About a hole that spins each takes up to a second.
-constexpr int kMostSightings = 5000, kMostBodiesAboutSpin = 16;
+constexpr int kMostSightings = 5000, kMostSightingsAboutSpin = 16;
 // Between keyframed targets a camera turns smoothly, and each of its states takes milliseconds.
 constexpr int kWithinTurns = 10;
 
@@ -207,7 +207,7 @@ std::vector<ShowWarning> flash_warnings(const Show& show, const std::vector<int>
 std::vector<ShowWarning> body_warnings(const Show& show) {
   if (show.bodies.empty() || !show.effects.lensing) return {};
   const int sightings_at_most =
-                show.spacetime.is<SpinningHole>() ? kMostBodiesAboutSpin : kMostSightings,
+                show.spacetime.is<SpinningHole>() ? kMostSightingsAboutSpin : kMostSightings,
             most = std::max(1, sightings_at_most / static_cast<int>(show.bodies.size()));
   const bool turns = std::ranges::any_of(
       show.timeline, [](const Segment& segment) { return segment.attitudes.size() > 1; });

@@ -19,8 +19,8 @@ namespace domefall {
 //     F(r) ~ -Omega' (B(r) + C)/(r (E - Omega L)^2),   B = int (E - Omega L) dL.
 //
 // About a spin this is a quadrature, with dL/dr = -R''/(Omega dR'/dE + dR'/dL) of the radial potential
-// R of kerr.h's orbits.  Without one, about a charge q, with y = sqrt(r - q^2), A = r_c - q^2 and D = q^2 (1 - 2/r_c), r_c the circle of
-// light, the integral is elementary:
+// R of kerr.h's orbits.  Without one, about a charge q, with y = sqrt(r - q^2), A = r_c - q^2 and D =
+// q^2 (1 - 2/r_c), r_c the circle of light, the integral is elementary:
 //
 //     dB/dy = 1 - 2 q^2/(y^2 + q^2) + D/(y^2 + D) - A/(y^2 - A).
 //

@@ -38,7 +38,8 @@ struct Halo {
 };
 
 // A Jet is a pair of cones of gas that flows away from the hole along its axis and against it, with
-// one Lorentz factor against whoever is there without angular momentum.  With the angle a from the axis its density is
+// one Lorentz factor against whoever is there without angular momentum.  With the angle a from the axis
+// its density is
 //
 //     n(r, a) = (R/r)^2 exp(-(a/A)^2/2) x^2 (3 - 2x) exp(-(r/D)^2/2),   x = (r - r_+)/R, at most 1,
 //
