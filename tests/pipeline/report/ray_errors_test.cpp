@@ -57,7 +57,8 @@ TEST(RaySamples, StayInTheirRegionAndHaveATruth) {
 TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
   for (const RayErrorRow& row : measure_rays(true)) {
     SCOPED_TRACE(row.region + " " + row.difficulty + " " + row.method);
-    EXPECT_GE(row.rays, 16);
+    const bool spin = row.region.starts_with("spin");
+    EXPECT_GE(row.rays, spin ? 16 : 48);
     EXPECT_LE(row.phi_99, row.phi_worst);
     EXPECT_LE(row.sky_99, row.sky_worst);
     EXPECT_GT(row.ns_per_ray, 0);
@@ -65,9 +66,9 @@ TEST(RayErrors, OfTheTableAndTheExactIntegralAreAsStated) {
     EXPECT_EQ(row.undecided, 0);
     EXPECT_GT(row.phi_worst, 0);
     // Far from the hole an angle of 1e-7 that is given as its supplement has lost digits, but no
-    // sky shows them.  About a spin light that circles for a thousand radians has lost three.
-    const bool lost = row.difficulty == "far" || row.region.starts_with("spin");
-    const double exact = lost ? 1e-10 : 1e-13;
+    // sky shows them.  About a spin light that circles for a thousand radians has lost one.
+    const bool circles = spin && row.difficulty == "edge";
+    const double exact = row.difficulty == "far" ? 1e-10 : circles ? 2e-12 : 1e-13;
     EXPECT_LT(row.phi_worst, row.method == "table" ? 1e-9 : exact);
     EXPECT_LT(row.sky_worst, row.method == "table" ? 1e-9 : 1e-12);
   }
