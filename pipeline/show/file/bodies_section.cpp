@@ -11,6 +11,7 @@
 #include "pipeline/show/file/trajectory_section.h"
 #include "pipeline/show/placement.h"
 #include "pipeline/sources/colour/blackbody.h"
+#include "pipeline/sources/sky/read_sky.h"
 #include "trajectories/bound_orbit.h"
 #include "trajectories/trajectory.h"
 
@@ -325,8 +326,7 @@ void read_surface(const Section& s, const Show& to, const std::map<std::string, 
   if (!even)
     body.granulation = s.given("granulation").value_or(body.temperature > kHottest ? 0 : kContrast);
   if (texture)
-    if (const auto name = read_text(*texture))
-      if (const auto file = lookup.file(*texture, *name)) body.texture = *file;
+    if (const auto file = lookup.picture(*texture, try_sky)) body.texture = *file;
   if (!lamp) return;
   const auto name = lamp->node.IsScalar() ? read_text(*lamp) : std::nullopt;
   static constexpr std::array<std::string_view, 1> kWords{"disc"};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/base/errors.h"
 #include "pipeline/image/read_image.h"
 #include "pipeline/show/file/sections.h"
 #include "pipeline/show/placement.h"
@@ -32,19 +31,15 @@ void read_radii(const Section& s, Disc& disc) {
                             short_number(disc.outer), as_written(*inner)));
 }
 
-// Reads a picture of the disc, whose header must be whole.
+// Reads a picture of the disc.
 std::optional<PatternKind> read_map(const Item& item, const Disc& disc, const Lookup& lookup) {
   const Section s(item, {"pattern", "pattern.file"});
   MapPattern map{{}, s.number("at_m"), disc.inner, disc.outer};
   const Item* name = s.require("file", ", a picture");
-  const auto text = name ? read_text(*name) : std::nullopt;
-  const auto file = text ? lookup.file(*name, *text) : std::nullopt;
+  const auto file =
+      name ? lookup.picture(*name, [](const std::filesystem::path& path) { read_image(path); })
+           : std::nullopt;
   if (!file) return std::nullopt;
-  try {
-    const InputImage picture(*file);
-  } catch (const InputError& error) {
-    return name->fail(std::string("cannot be used: ") + error.what());
-  }
   map.file = *file;
   return map;
 }

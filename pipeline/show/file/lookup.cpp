@@ -139,6 +139,19 @@ std::optional<fs::path> Lookup::file(const Item& item, const std::string& name) 
   return std::nullopt;
 }
 
+// A picture is read as a whole, since else its damage would be found after hours of frames.
+std::optional<fs::path> Lookup::picture(const Item& item, void (*read)(const fs::path&)) const {
+  const auto name = read_text(item);
+  auto found = name ? file(item, *name) : std::nullopt;
+  if (!found) return std::nullopt;
+  try {
+    read(*found);
+  } catch (const InputError& error) {
+    return item.fail(std::string("cannot be used: ") + error.what());
+  }
+  return found;
+}
+
 std::optional<fs::path> Lookup::shipped(const Item& item, std::string_view name) const {
   fs::path file = shipped_asset(name);
   if (is_readable_file(file)) return file;

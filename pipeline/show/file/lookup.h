@@ -62,6 +62,9 @@ class Lookup {
   // Finds a file in the same way, and reports one that is not found.  Another machine may have a
   // file that is missing here, but a folder can be no file of a show anywhere.
   std::optional<std::filesystem::path> file(const Item& item, const std::string& name) const;
+  // Finds a picture in the same way, and reports one that `read` throws an InputError about.
+  std::optional<std::filesystem::path> picture(const Item& item,
+                                               void (*read)(const std::filesystem::path&)) const;
   // Finds one of the files that come with Domefall.  A missing one is reported at `item`, which
   // needs it.
   std::optional<std::filesystem::path> shipped(const Item& item, std::string_view name) const;
