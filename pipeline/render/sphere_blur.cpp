@@ -95,12 +95,22 @@ void blur_one(int m, std::span<const double> kernel, OrderRows& rows) {
   }
 }
 
+// Returns a number of rows, at least so many, that come in pairs of fours.  A Fourier transform is quick
+// where it has no prime factor beyond 5.
+int quick_rows(double least) {
+  for (int fours = static_cast<int>(std::ceil(least / 8));; ++fours) {
+    int left = fours;
+    for (const int prime : {2, 3, 5})
+      while (left % prime == 0) left /= prime;
+    if (left == 1) return 8 * fours;
+  }
+}
+
 }  // namespace
 
 SphereBlur::SphereBlur(double least_sigma)
     : orders_(static_cast<int>(std::ceil(4 / least_sigma)) + 1),
-      // Rows come in pairs of fours.
-      rows_(8 * static_cast<int>(std::ceil(2 * pi / least_sigma / 8))),
+      rows_(quick_rows(2 * pi / least_sigma)),
       columns_(2 * rows_),
       step_(pi / rows_),
       grid_(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_)) {}
@@ -164,6 +174,9 @@ void SphereBlur::blur(std::span<const double> kernel) {
     const kissfft<float>& fft = forward.local();
     for (std::size_t c = 0; c < 3; ++c) {
       for (std::size_t i = 0; i < columns; ++i) row[i] = grid_[j * columns + i][c];
+      // Half of the sphere is dark about a dome.
+      if (std::ranges::all_of(row, [](const Complex& light) { return light == Complex{}; }))
+        continue;
       fft.transform(row.data(), transformed.data());
       for (std::size_t m = 0; m < orders; ++m) {
         Parts& wave = waves[m * rows + j];
