@@ -19,8 +19,8 @@ namespace domefall {
 namespace {
 
 // The versions are raised with every change that alters a pixel, so that older frames are made
-// again.  That of bodies counts for shows with bodies only.
-constexpr int kPixelVersion = 10, kBodiesVersion = 5;
+// again.  Those of bodies and of glare count for shows with them only.
+constexpr int kPixelVersion = 10, kBodiesVersion = 5, kGlareVersion = 2;
 
 // Adds a law.  Settings that came after the first version are added only where they are in use, so
 // that other shows keep their keys.
@@ -130,7 +130,8 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   add_disc(common, show.disc);
   add_gas(common, show);
   add_pattern_files(common);
-  if (show.glare.share > 0) common.add("glare").add(show.glare.share).add(show.glare.sigma);
+  if (show.glare.share > 0)
+    common.add("glare").add(kGlareVersion).add(show.glare.share).add(show.glare.sigma);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
   for (const Body& body : show.bodies) {
     common.add("body").add(kBodiesVersion);

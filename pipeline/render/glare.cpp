@@ -16,6 +16,11 @@ namespace {
 
 using Rgb = SphereBlur::Rgb;
 
+// The narrowest Gaussian, in pixels.  What is left of it when a pixel's light has been spread to its
+// corners has a sigma of 0.69 pixels, and a sum over pixels that is right to 2 exp(-2 pi^2 0.69^2) =
+// 2e-4, by Poisson's sum formula.
+constexpr double kLeastPixels = 0.85;
+
 // A GlarePart is an image without a seam in a frame, the whole one or a face of a cubemap.
 struct GlarePart {
   CubemapFace face;
@@ -148,11 +153,12 @@ void scatter(const GlarePart& part, float share, const GlareGrid& grid, LayeredF
   });
 }
 
-// Returns k_l of the law, less what the blocks and the grid spread by themselves.
-std::vector<double> kernel_of(double sigma, double own_variance, int orders) {
+// Returns k_l of the law, less what the blocks and the grid spread by themselves.  No Gaussian is
+// narrower than `least`.
+std::vector<double> kernel_of(double sigma, double least, double own_variance, int orders) {
   std::vector<double> kernel(static_cast<std::size_t>(orders));
   for (const auto& [width, share] : kGlareGaussians) {
-    const double variance = std::pow(sigma * width, 2) - own_variance;
+    const double variance = std::pow(std::max(sigma * width, least), 2) - own_variance;
     for (std::size_t l = 0; l < kernel.size(); ++l)
       kernel[l] += share * std::exp(-static_cast<double>(l * (l + 1)) * variance / 2);
   }
@@ -163,13 +169,16 @@ std::vector<double> kernel_of(double sigma, double own_variance, int orders) {
 
 template <class T>
 void add_glare(const Glare& glare, const Projection& projection, LayeredFrame<T>& frame) {
-  const double pixel = largest_pixel_angle(projection), sigma = std::max(glare.sigma, 0.7 * pixel);
-  const int step = std::max(1, static_cast<int>(std::lround(0.5 * sigma / pixel)));
-  SphereBlur sphere(sigma);
+  const double pixel = largest_pixel_angle(projection), least = kLeastPixels * pixel,
+               narrowest = std::max(glare.sigma, least);
+  const int step = std::max(1, static_cast<int>(std::lround(0.5 * narrowest / pixel)));
+  // The blocks and the grid of their corners widen the light by this variance, so that the series is
+  // that of what is left.
+  const double blocks = std::pow(step * pixel, 2) / 4;
+  SphereBlur sphere(std::sqrt(narrowest * narrowest - blocks));
   const std::vector<GlarePart> parts = parts_of(projection);
   for (const GlarePart& part : parts) gather(part, step, frame.picture, sphere);
-  const double block = step * pixel;
-  sphere.blur(kernel_of(sigma, sphere.own_variance() + block * block / 4, sphere.orders()));
+  sphere.blur(kernel_of(glare.sigma, least, sphere.own_variance() + blocks, sphere.orders()));
   if (LayerImage<T>* layer = frame.find(Layer::kGlare)) layer->add_pixels(false);
   for (const GlarePart& part : parts)
     scatter(part, static_cast<float>(glare.share), GlareGrid(part, step, sphere), frame);

@@ -134,6 +134,47 @@ TEST(Glare, LooksTheSameAtAllSizesAndInAllProjections) {
   }
 }
 
+// At this size the narrowest Gaussian is that of 0.85 pixels.  What is scattered falls all the way, and
+// beyond that Gaussian as the law does.  Of so few pixels the sum is right to 1e-3.
+TEST(Glare, OfAPointHasNoRingsInASmallFrame) {
+  constexpr int kOrders = 160;
+  const double share = 0.3, sigma = 0.5 * kDegree;
+  const Projection projection = with_width(Projection(Equirectangular{}), 192);
+  const double least = 0.85 * largest_pixel_angle(projection);
+  std::vector<double> kernel(kOrders);
+  for (const GlareGaussian& part : kGlareGaussians) {
+    const auto own = gaussian_kernel(std::max(part.width * sigma, least), kOrders);
+    for (std::size_t l = 0; l < kernel.size(); ++l) kernel[l] += part.share * own[l];
+  }
+  for (const auto& [row, column] : {std::pair{48, 30}, std::pair{30, 190}, std::pair{4, 100}}) {
+    LayeredFloatFrame frame({Layer::kGlare});
+    frame.set_size(192, 96);
+    frame.picture.row(row)[3 * column] = 1000;
+    const double before = light_of(frame, projection);
+    add_glare(Glare{share, sigma}, projection, frame);
+    EXPECT_NEAR(light_of(frame, projection) / before, 1, 1e-3) << row;
+    const ImageRgb<float>& glare = frame.layers[0].light;
+    for (const float light : glare.pixels) EXPECT_GE(light, 0);
+    const V3d bright = direction_at(projection, {column + 1.0, row + 1.0}).v;
+    const double peak = share * before * blurred_point(kernel, 0);
+    for (const auto& [down, on] : {std::pair{0, 1}, {0, -1}, {1, 0}, {-1, 0}}) {
+      double nearer = HUGE_VAL;
+      for (int k = 0; k < 96; ++k) {
+        const int y = row + k * down, x = (column + k * on + 192) % 192;
+        if (y < 0 || y >= 96) break;
+        const V3d n = direction_at(projection, {x + 1.0, y + 1.0}).v;
+        const double angle = std::atan2(n.cross(bright).length(), n.dot(bright)),
+                     found = glare.row(y)[3 * x];
+        EXPECT_LT(found, nearer + 1e-4 * peak) << row << ' ' << angle / kDegree;
+        nearer = found;
+        if (angle < 5 * least) continue;
+        EXPECT_NEAR(found, share * before * blurred_point(kernel, angle), 1e-3 * peak)
+            << row << ' ' << angle / kDegree;
+      }
+    }
+  }
+}
+
 TEST(Glare, GivesItsLayerWhatTheOthersLose) {
   const Projection projection = with_width(Projection(Domemaster{}), 256);
   const LayeredFloatFrame cap = frame_with_cap(projection);
