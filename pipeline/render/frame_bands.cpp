@@ -222,20 +222,6 @@ class StarsEnd {
   std::vector<Block> blocks_;
 };
 
-// Hides what is behind spheres, and says what is left, if asked.  A sphere in front of another hides no
-// more than it.
-void cover_rows(const BlobLayer& covers, int band, std::size_t pixels, SplatBuffer& splats,
-                std::vector<float>& covered, float* rgb, float* left) {
-  covered.assign(3 * pixels, 0);
-  covers.draw_band(band, splats, covered.data());
-  for (std::size_t k = 0; k < pixels; ++k) {
-    if (!(covered[3 * k] > 0)) continue;
-    const float passes = 1 - std::min(covered[3 * k], 1.0f);
-    for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) rgb[c] *= passes;
-    if (left) left[k] = passes;
-  }
-}
-
 template <class T>
 void draw_gas(const DrawnLight& drawn, int first, int end, float* rgb,
               std::optional<BandLayers<T>>& layers) {
@@ -246,18 +232,15 @@ void draw_gas(const DrawnLight& drawn, int first, int end, float* rgb,
   if (layers) layers->take_hiding(Layer::kDisc, rgb);
 }
 
-// There are bodies.  Those that are spheres hide what is behind them.
 template <class T>
-void draw_bodies(const DrawnLight& drawn, int band, std::size_t pixels, SplatBuffer& splats,
-                 std::vector<float>& covered, float* rgb, std::optional<BandLayers<T>>& layers) {
-  if (drawn.covers)
-    cover_rows(*drawn.covers, band, pixels, splats, covered, rgb,
-               layers ? layers->left(Layer::kBodies) : nullptr);
-  drawn.bodies->draw_band(band, splats, rgb);
-  if (!layers) return;
-  if (drawn.covers)
+void draw_bodies_of(const DrawnLight& drawn, int band, std::size_t pixels, SplatBuffer& splats,
+                    float* rgb, std::optional<BandLayers<T>>& layers) {
+  const bool hiding = layers && any_covers(drawn.bodies);
+  draw_bodies(drawn.bodies, band, pixels, splats, rgb,
+              hiding ? layers->left(Layer::kBodies) : nullptr);
+  if (hiding)
     layers->take_hiding(Layer::kBodies, rgb);
-  else
+  else if (layers)
     layers->take(Layer::kBodies, rgb);
 }
 
@@ -273,7 +256,7 @@ void prepare_layers(bool lit, const DrawnLight& drawn, LayeredFrame<T>& frame) {
       case Layer::kDisc:
         return drawn.disc || drawn.gas;
       case Layer::kBodies:
-        return drawn.bodies != nullptr;
+        return !drawn.bodies.empty();
       case Layer::kGlare:
       case Layer::kTitles:
         break;  // they come later
@@ -283,7 +266,7 @@ void prepare_layers(bool lit, const DrawnLight& drawn, LayeredFrame<T>& frame) {
   for (LayerImage<T>& image : frame.layers) {
     if (is_drawn(image.layer))
       image.add_pixels(image.layer == Layer::kDisc ||
-                       (image.layer == Layer::kBodies && drawn.covers));
+                       (image.layer == Layer::kBodies && any_covers(drawn.bodies)));
     else
       image.remove_pixels();
   }
@@ -327,9 +310,9 @@ void draw_bands(const FrameScene& scene, const SkyPass& sky, const DrawnLight& d
     if (stars_end) stars_end->end_stars(rgb.data());
     if (layers) layers->take(Layer::kStars, rgb.data());
     draw_gas(drawn, first, end, rgb.data(), layers);
-    if (drawn.bodies) {
+    if (!drawn.bodies.empty()) {
       const std::size_t pixels = static_cast<std::size_t>(end - first) * stride / 3;
-      draw_bodies(drawn, band, pixels, splats, memory.covered.local(), rgb.data(), layers);
+      draw_bodies_of(drawn, band, pixels, splats, rgb.data(), layers);
     }
     if (drawn.mattes) drawn.mattes->fill_rows(first, end, rgb.data(), splats, frame.mattes);
     for (int row = first; row < end; ++row) {

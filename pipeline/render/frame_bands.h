@@ -7,12 +7,14 @@
 #include <array>
 #include <atomic>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/image/layer.h"
 #include "pipeline/render/blobs/blob_layer.h"
 #include "pipeline/render/disc/disc_pass.h"
 #include "pipeline/render/disc/gas_pass.h"
+#include "pipeline/render/frame_bodies.h"
 #include "pipeline/render/frame_mattes.h"
 #include "pipeline/render/rays/sky_borders.h"
 #include "pipeline/render/sky/sky_pass.h"
@@ -34,7 +36,7 @@ struct LayerRows {
 // memory takes more time than writing into it.
 struct BandMemory {
   tbb::enumerable_thread_specific<SplatBuffer> splats{};
-  tbb::enumerable_thread_specific<std::vector<float>> rows{}, background{}, covered{};
+  tbb::enumerable_thread_specific<std::vector<float>> rows{}, background{};
   tbb::enumerable_thread_specific<LayerRows> layers{};
   const std::atomic<bool>* stop = nullptr;  // set to end the frame early; or null
 
@@ -51,8 +53,7 @@ struct DrawnLight {
   const SkyBorders* borders = nullptr;
   const DiscPass* disc = nullptr;  // without height
   const GasPass* gas = nullptr;
-  const BlobLayer* bodies = nullptr;
-  const BlobLayer* covers = nullptr;  // what of pixels they cover (BodyImages)
+  std::span<const BodyLayer> bodies{};
   const MattePass* mattes = nullptr;  // of all of this, for frames with mattes
 };
 

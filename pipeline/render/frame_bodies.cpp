@@ -1,7 +1,8 @@
 #include "pipeline/render/frame_bodies.h"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
-#include <vector>
 
 #include "pipeline/render/body_trail.h"
 #include "pipeline/render/stars/star_image_finder.h"
@@ -10,39 +11,35 @@ namespace domefall {
 
 namespace {
 
-// A BodyPainter appends images of bodies, and what they cover.
+// A BodyPainter makes images of bodies.
 class BodyPainter {
  public:
-  BodyPainter(const FrameScene& scene, const DiscPass* disc, const GasRays* gas, BodyImages& images)
-      : scene_(scene),
-        disc_(disc),
-        gas_(gas),
-        trails_(scene),
-        finder_(scene, SkyRegion::kI),
-        images_(images) {}
+  BodyPainter(const FrameScene& scene, const DiscPass* disc, const GasRays* gas)
+      : scene_(scene), disc_(disc), gas_(gas), trails_(scene), finder_(scene, SkyRegion::kI) {}
 
   const BodySight& sight() const { return trails_.sight(); }
 
-  // Appends one image, and says whether it is bright enough.
-  bool append(const Body& body, int order, const BodySight::Image& image) {
+  // Sets what is drawn of an image, and says whether that is bright enough.
+  bool paint(const Body& body, int order, const BodySight::Image& image, BodyImages& drawn) {
     left_.clear(), tints_.clear();
     const SceneStar star = BodySight::star_of(body);
     const std::vector<BodyTrails::Piece> trail = trails_.trail(body, order, image);
     for (const BodyTrails::Piece& piece : trail)
-      take(piece.image, piece.psi, piece.tint, piece.solid_angle);
-    if (!trail.empty()) return finder_.append_trail(star, left_, images_.light, tints_);
+      take(piece.image, piece.psi, piece.tint, piece.solid_angle, drawn);
+    if (!trail.empty()) return finder_.append_trail(star, left_, drawn.light, tints_);
     const std::vector<BodySight::Piece> pieces =
         sight().pieces(body, image, scene_.point_spread.least());
     for (const BodySight::Piece& piece : pieces)
-      take(piece.at, image.traced.way(), piece.tint, piece.solid_angle);
-    if (!pieces.empty()) return finder_.append_pieces(star, left_, images_.light, tints_);
-    take(image.at, image.traced.way(), {1, 1, 1}, 0);
-    return !left_.empty() && finder_.append_image(star, left_[0], images_.light);
+      take(piece.at, image.traced.way(), piece.tint, piece.solid_angle, drawn);
+    if (!pieces.empty()) return finder_.append_pieces(star, left_, drawn.light, tints_);
+    take(image.at, image.traced.way(), {1, 1, 1}, 0, drawn);
+    return !left_.empty() && finder_.append_image(star, left_[0], drawn.light);
   }
 
  private:
   // The disc hides each piece by itself, since the edge of its image may cross that of the body.
-  void take(SkyImage piece, double psi, const WorkingRgb& tint, double solid_angle) {
+  void take(SkyImage piece, double psi, const WorkingRgb& tint, double solid_angle,
+            BodyImages& drawn) {
     const BodySight::Seen seen = sight().seen(piece);
     GasSight front;
     if (gas_ && (disc_ || solid_angle > 0)) front = gas_->sight_before(seen.direction, psi);
@@ -55,16 +52,16 @@ class BodyPainter {
         solid_angle * left > 0 ? pixel_of(scene_.projection(), seen.direction) : std::nullopt;
     if (pixel) {
       const auto covers = static_cast<float>(left * solid_angle / (seen.doppler * seen.doppler));
-      images_.cover.push_back({static_cast<float>(pixel->i - 1),
-                               static_cast<float>(pixel->j - 1),
-                               {covers, covers, covers}});
+      drawn.cover.push_back({static_cast<float>(pixel->i - 1),
+                             static_cast<float>(pixel->j - 1),
+                             {covers, covers, covers}});
       // Gas in front of the sphere is hidden with what is behind it, and so added again.
       const std::array<float, 3> light = front.even_light();
       const auto again = covers * static_cast<float>(scene_.exposure);
       if (light[0] + light[1] + light[2] > 0)
-        images_.light.push_back({images_.cover.back().x,
-                                 images_.cover.back().y,
-                                 {again * light[0], again * light[1], again * light[2]}});
+        drawn.light.push_back({drawn.cover.back().x,
+                               drawn.cover.back().y,
+                               {again * light[0], again * light[1], again * light[2]}});
     }
     piece.amplification *= left;
     if (!(piece.amplification > 0)) return;
@@ -76,45 +73,82 @@ class BodyPainter {
   const GasRays* gas_;
   BodyTrails trails_;
   const StarImageFinder finder_;  // bodies are in region I or have come from there
-  BodyImages& images_;
   std::vector<SkyImage> left_;
   std::vector<WorkingRgb> tints_;
 };
 
 }  // namespace
 
-BodyImages images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
-                            const DiscPass* disc, const GasRays* gas) {
-  BodyImages images;
-  BodyPainter painter(scene, disc, gas, images);
+std::vector<BodyImages> images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
+                                         const DiscPass* disc, const GasRays* gas) {
+  std::vector<BodyImages> images;
+  BodyPainter painter(scene, disc, gas);
   const BodySight& sight = painter.sight();
   if (!sight.sees()) return images;
-  for (const Body& body : bodies) {
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const Body& body = bodies[k];
     // Higher orders become ever fainter, so the search ends after a few faint ones in succession.
     int faint = 0;
     for (int order = sight.first_order(body);
          order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {
       const auto image = sight.image(body, order);
       if (!image) break;
-      faint = painter.append(body, order, *image) ? 0 : faint + 1;
+      BodyImages drawn{k, sight.far(body, image->traced), {}, {}};
+      faint = painter.paint(body, order, *image, drawn) ? 0 : faint + 1;
+      images.push_back(std::move(drawn));
     }
   }
+  std::ranges::stable_sort(images, std::greater<>(), &BodyImages::far);
   return images;
 }
 
-// An observer who sees no bodies gets an empty layer, which draws nothing.
-BodyLayers lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc,
-                      const GasRays* gas) {
-  const BodyImages images = images_of_bodies(scene, bodies, disc, gas);
-  const auto layer = [&](const std::vector<StarImage>& of) {
-    BlobLayer laid(scene.projection());
-    laid.add(of, scene.point_spread);
-    laid.sort_into_bands();
-    return laid;
+std::vector<BodyLayer> lay_bodies(const FrameScene& scene, std::span<const BodyImages> images,
+                                  std::optional<std::size_t> only) {
+  const auto laid = [&](const std::vector<StarImage>& of) {
+    BlobLayer layer(scene.projection());
+    layer.add(of, scene.point_spread);
+    layer.sort_into_bands();
+    return layer;
   };
-  BodyLayers layers{layer(images.light), std::nullopt};
-  if (!images.cover.empty()) layers.cover.emplace(layer(images.cover));
+  std::vector<BodyLayer> layers;
+  for (std::size_t k = 0; k < images.size();) {
+    std::optional<BlobLayer> cover;
+    if (!images[k].cover.empty()) cover = laid(images[k].cover);
+    // What covers nothing is drawn together with what it is before.
+    std::vector<StarImage> light;
+    do {
+      if (!only || images[k].body == *only)
+        light.insert(light.end(), images[k].light.begin(), images[k].light.end());
+      ++k;
+    } while (k < images.size() && images[k].cover.empty());
+    layers.push_back({std::move(cover), laid(light)});
+  }
   return layers;
+}
+
+bool any_covers(std::span<const BodyLayer> layers) {
+  return std::ranges::any_of(layers,
+                             [](const BodyLayer& layer) { return layer.cover.has_value(); });
+}
+
+void draw_bodies(std::span<const BodyLayer> layers, int band, std::size_t pixels,
+                 SplatBuffer& splats, float* rgb, float* left) {
+  // A whole pixel that is covered by pieces, which ripple by some 5e-4, is covered as a whole.
+  constexpr float kWhole = 1 - 1e-3f;
+  std::vector<float> covered;
+  for (const BodyLayer& layer : layers) {
+    if (layer.cover && layer.cover->reaches(band)) {
+      covered.assign(3 * pixels, 0);
+      layer.cover->draw_band(band, splats, covered.data());
+      for (std::size_t k = 0; k < pixels; ++k) {
+        if (!(covered[3 * k] > 0)) continue;
+        const float passes = 1 - std::min(covered[3 * k] / kWhole, 1.0f);
+        for (std::size_t c = 3 * k; c < 3 * k + 3; ++c) rgb[c] *= passes;
+        if (left) left[k] *= passes;
+      }
+    }
+    layer.light.draw_band(band, splats, rgb);
+  }
 }
 
 }  // namespace domefall

@@ -12,22 +12,34 @@
 
 namespace domefall {
 
-// BodyImages are images of bodies that are bright enough, and what their spheres cover of the pixels,
-// as light whose value is 1 where a pixel is covered as a whole.  Some may lie outside the frame.
+// A BodyImages is one image of a body, as blobs that are bright enough, and what its sphere covers of
+// the pixels, as light whose value is 1 where a pixel is covered as a whole.  Some may lie outside the
+// frame.
 struct BodyImages {
+  std::size_t body;  // its place in the list
+  double far;        // BodySight::far
   std::vector<StarImage> light, cover;
 };
-// Each image is dimmed by the parts of the disc that its light has crossed.  `disc` and `gas` are null where
-// there is none.  Images that move are trails (body_trail.h).
-BodyImages images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
-                            const DiscPass* disc, const GasRays* gas = nullptr);
+// Returns the images from the farthest one on.  Each is dimmed by the parts of the disc that its light
+// has crossed.  `disc` and `gas` are null where there is none.  Images that move are trails
+// (body_trail.h).
+std::vector<BodyImages> images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
+                                         const DiscPass* disc, const GasRays* gas = nullptr);
 
-// Returns layers with these images.
-struct BodyLayers {
-  BlobLayer light;
+// A BodyLayer hides what is behind a sphere, and has the light of that and of points before it.
+struct BodyLayer {
   std::optional<BlobLayer> cover;  // where a sphere covers anything
+  BlobLayer light;
 };
-BodyLayers lay_bodies(const FrameScene& scene, std::span<const Body> bodies, const DiscPass* disc,
-                      const GasRays* gas = nullptr);
+// Returns layers with these images, which are drawn one after the other, and perhaps with the light of
+// one body only.
+std::vector<BodyLayer> lay_bodies(const FrameScene& scene, std::span<const BodyImages> images,
+                                  std::optional<std::size_t> only = {});
+
+bool any_covers(std::span<const BodyLayer> layers);
+// Draws layers over the pixels of a band.  Where `left` is not null, each of its values is multiplied by
+// what spheres leave of the light behind them.
+void draw_bodies(std::span<const BodyLayer> layers, int band, std::size_t pixels,
+                 SplatBuffer& splats, float* rgb, float* left);
 
 }  // namespace domefall

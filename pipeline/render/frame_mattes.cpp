@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "pipeline/render/frame_bodies.h"
 #include "pipeline/render/overlay/frame_titles.h"
 #include "pipeline/sources/colour/colour_space.h"
 #include "projections/pixel_directions.h"
@@ -33,8 +32,9 @@ MattePass::MattePass(const FrameScene& scene, const DiscPass* disc)
       disc_(disc),
       borders_(scene.tracer, scene.projection()),
       seen_(seen_skies(scene.state.observer)) {
-  for (const Body& body : scene.bodies)
-    bodies_.push_back(lay_bodies(scene, {&body, 1}, disc).light);
+  const std::vector<BodyImages> images = images_of_bodies(scene, scene.bodies, disc);
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+    bodies_.push_back(lay_bodies(scene, images, k));
 }
 
 void MattePass::fill_rows(int first, int end, const float* rgb, SplatBuffer& splats,
@@ -65,8 +65,9 @@ void MattePass::fill_body(std::size_t body, int first, int end, const float* rgb
   };
   const std::size_t width = columns(scene_.projection());
   std::vector<float> own(3 * kBandRows * width);
-  bodies_[body].draw_band(first / kBandRows, splats, own.data());
-  for (std::size_t k = 0; k < static_cast<std::size_t>(end - first) * width; ++k) {
+  const std::size_t pixels = static_cast<std::size_t>(end - first) * width;
+  draw_bodies(bodies_[body], first / kBandRows, pixels, splats, own.data(), nullptr);
+  for (std::size_t k = 0; k < pixels; ++k) {
     const double light = luminance_at(&own[3 * k]), all = luminance_at(rgb + 3 * k);
     covered[k] = light > 0 ? static_cast<float>(std::min(light / all, 1.0)) : 0;
   }

@@ -9,6 +9,7 @@
 #include "pipeline/render/blobs/blob_layer.h"
 #include "pipeline/render/cryptomatte.h"
 #include "pipeline/render/disc/disc_pass.h"
+#include "pipeline/render/frame_bodies.h"
 #include "pipeline/render/rays/sky_borders.h"
 #include "pipeline/render/scene/frame_scene.h"
 
@@ -37,7 +38,7 @@ class MattePass {
 
   const FrameScene& scene_;
   const DiscPass* disc_;
-  std::vector<BlobLayer> bodies_;  // each alone
+  std::vector<std::vector<BodyLayer>> bodies_;  // each with its own light alone
   SkyBorders borders_;
   PerSky<bool> seen_;
 };

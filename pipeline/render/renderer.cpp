@@ -312,11 +312,9 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
     memory_->bands.throw_if_stopped();
     times.disc_s = watch.lap();
     const DiscPass* const disc_or_none = disc ? &*disc : nullptr;
-    std::optional<BodyLayers> bodies;
-    if (!scene.bodies.empty()) {
-      bodies.emplace(lay_bodies(scene, scene.bodies, disc_or_none, gas ? &gas->rays() : nullptr));
-      times.images += bodies->light.size();
-    }
+    const std::vector<BodyLayer> bodies = lay_bodies(
+        scene, images_of_bodies(scene, scene.bodies, disc_or_none, gas ? &gas->rays() : nullptr));
+    for (const BodyLayer& layer : bodies) times.images += layer.light.size();
     std::optional<MattePass> mattes;
     if (!image.mattes.empty()) mattes.emplace(scene, disc_or_none);
     times.stars_s += watch.lap();
@@ -327,8 +325,7 @@ void Renderer::render_image(const FrameScene& scene, LayeredFrame<T>& image, Sta
                 .borders = borders ? &*borders : nullptr,
                 .disc = flat ? disc_or_none : nullptr,
                 .gas = gas ? &*gas : nullptr,
-                .bodies = bodies ? &bodies->light : nullptr,
-                .covers = bodies && bodies->cover ? &*bodies->cover : nullptr,
+                .bodies = bodies,
                 .mattes = mattes ? &*mattes : nullptr},
                memory_->bands, image);
     memory_->bands.throw_if_stopped();

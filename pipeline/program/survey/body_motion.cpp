@@ -144,8 +144,9 @@ double light_of(const Show& show, std::size_t body, int frame) {
   const FrameScene scene(show, state, plan, lens_of(state.observer, plan.wanted(), show.effects),
                          {}, {}, nullptr, body_times(show, state, show.exposure.shutter));
   double sum = 0;
-  for (const StarImage& image : images_of_bodies(scene, {&scene.bodies[body], 1}, nullptr).light)
-    sum += luminance({image.rgb[0], image.rgb[1], image.rgb[2]});
+  for (const BodyImages& drawn : images_of_bodies(scene, {&scene.bodies[body], 1}, nullptr))
+    for (const StarImage& image : drawn.light)
+      sum += luminance({image.rgb[0], image.rgb[1], image.rgb[2]});
   return sum;
 }
 

@@ -250,6 +250,21 @@ void BlobLayer::draw_wide(const std::vector<std::uint32_t>& numbers, const Canva
   }
 }
 
+// Ellipses are sorted by their first band, so those that reach this band lie in one stretch of
+// memory.  Earlier bands none of whose ellipses reach this one are skipped.
+std::span<const EllipseBlob> BlobLayer::ellipses_of(int band) const {
+  const auto own = static_cast<std::size_t>(band);
+  auto begin = static_cast<std::size_t>(std::max(0, band - kMostBands + 1));
+  while (begin < own && last_band_[begin] < band) ++begin;
+  return {ellipses_.get() + first_ellipse_[begin], ellipses_.get() + first_ellipse_[own + 1]};
+}
+
+bool BlobLayer::reaches(int band) const {
+  const auto own = static_cast<std::size_t>(band);
+  return splat_buckets_ || !ellipses_of(band).empty() || !wide_of_band_[own].empty() ||
+         !caps_of_band_[own].empty();
+}
+
 // The canvas writes to rgb.  NOLINTNEXTLINE(readability-non-const-parameter)
 void BlobLayer::draw_band(int band, SplatBuffer& buffer, float* rgb) const {
   if (splat_buckets_) draw_splats(band, buffer, rgb);
@@ -257,12 +272,8 @@ void BlobLayer::draw_band(int band, SplatBuffer& buffer, float* rgb) const {
   const auto inside = columns_inside(projection_, first, count);
   const Canvas canvas{rgb, columns(projection_), first, count, inside.data()};
   const auto own = static_cast<std::size_t>(band);
-  // Ellipses are sorted by their first band, so those that reach this band lie in one stretch of
-  // memory.  Earlier bands none of whose ellipses reach this one are skipped.
-  auto begin = static_cast<std::size_t>(std::max(0, band - kMostBands + 1));
-  while (begin < own && last_band_[begin] < band) ++begin;
-  const std::size_t from = first_ellipse_[begin], end = first_ellipse_[own + 1];
-  draw_ellipses(ellipses_.get() + from, end - from, canvas);
+  const std::span<const EllipseBlob> ellipses = ellipses_of(band);
+  draw_ellipses(ellipses.data(), ellipses.size(), canvas);
   draw_wide(wide_of_band_[own], canvas);
   for (const std::uint32_t k : caps_of_band_[own]) draw_cap(caps_[k], projection_, canvas);
 }

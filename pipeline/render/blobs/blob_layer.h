@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/render/blobs/cap_blob.h"
@@ -52,6 +53,8 @@ class BlobLayer {
   void start_buffer(SplatBuffer& buffer) const {
     if (splat_buckets_) buffer.start(*splat_buckets_);
   }
+  // Says whether anything may reach into a band.
+  bool reaches(int band) const;
   // Adds the blobs' light on the rows of a band to rgb[rows][3 * columns].  The buffer belongs to
   // one thread.  Consecutive bands cost less when the same buffer draws them.
   void draw_band(int band, SplatBuffer& buffer, float* rgb) const;
@@ -79,6 +82,7 @@ class BlobLayer {
   void sort_ellipses();
   void sort_caps();
   void part_wide_ellipses();
+  std::span<const EllipseBlob> ellipses_of(int band) const;
   void draw_splats(int band, SplatBuffer& buffer, float* rgb) const;
   void draw_wide(const std::vector<std::uint32_t>& numbers, const Canvas& canvas) const;
 

@@ -81,11 +81,26 @@ bool BodySight::is_too_near(const Body& body) const {
   if (!direct) return false;
   if (!is_traced()) return !is_outside(*direct, radius_of(body));
   const Spacetime& spacetime = observer_.spacetime;
-  const bool outgoing = is_outgoing(observer_.tetrad);
-  const double v = observer_.null_time + (outgoing ? 2 * spacetime.tortoise(observer_.r) : 0);
-  return is_within_sphere(spacetime, observer_.r, v,
+  return is_within_sphere(spacetime, observer_.r, observer_v(),
                           motion_of(spacetime, body, observer_.sky_from_tetrad),
                           direct->proper_time, radius_of(body));
+}
+
+double BodySight::observer_v() const {
+  const bool outgoing = is_outgoing(observer_.tetrad);
+  return observer_.null_time + (outgoing ? 2 * observer_.spacetime.tortoise(observer_.r) : 0);
+}
+
+// All light goes forward in the time v - r of Kerr and Schild, and in a wormhole in v - l = t.  In flat
+// space it is t, and light that goes in a time d to the centre of a sphere goes in sqrt(d^2 - a^2) to its
+// rim.  A ray that meets the sphere does so before and after that.
+double BodySight::far(const Body& body, const BodyImage& image) const {
+  const BodyPoint left =
+      motion_of(observer_.spacetime, body, observer_.sky_from_tetrad).at(image.proper_time);
+  const bool hole = !observer_.spacetime.is<Wormhole>();
+  const double ago = observer_v() - (hole ? observer_.r : observer_.l) -
+                     (left.null_time - (hole ? left.r : left.l));
+  return ago * ago - body.radius * body.radius;
 }
 
 bool BodySight::is_traced() const {

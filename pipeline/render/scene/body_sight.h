@@ -84,6 +84,9 @@ class BodySight {
   // Returns the image that looks to the observer of `other` as this one does to this observer.
   SkyImage moved_to(const BodySight& other, const SkyImage& image) const;
 
+  // Of two images in one direction the one of which this is greater is behind the other.
+  double far(const Body& body, const BodyImage& image) const;
+
   // Returns the radius of a body, M.  A body without a size of its own is as large as its light
   // needs.  Like a star, it has a least size, which bounds its light on the axis of the lens.
   double radius_of(const Body& body) const;
@@ -94,6 +97,7 @@ class BodySight {
   // All images of a body, of a lens that lists them, which are found once.
   const std::vector<BodyImage>& listed(const Body& body) const;
   double size_of(const BodyImage& image, double radius) const;
+  double observer_v() const;
   // Says whether large spheres are traced place by place.
   bool is_traced() const;
   RingedSphere sphere(const Body& body, const BodyImage& image, const BodySurface& surface,

@@ -204,6 +204,69 @@ TEST(Bodies, StraightBehindTheHoleAreRings) {
   }
 }
 
+// A body at rest straight before the hole, or beyond the observer at 30.
+Body body_in_line(double r, double radius, double magnitude) {
+  Body body = body_at(r, 0, magnitude);
+  body.trajectory = StaticObserver{r};
+  body.radius = radius;
+  return body;
+}
+
+// The frame of some of them, in which only the direct images are looked at.
+FloatImage frame_in_line(const std::vector<Body>& bodies) {
+  Show show = show_with(30, bodies[0]);
+  const Body placed = show.bodies[0];
+  show.bodies.clear();
+  for (Body body : bodies) {
+    body.node = placed.node, body.normal = placed.normal;
+    body.name = std::to_string(show.bodies.size());
+    show.bodies.push_back(body);
+  }
+  if (reach(bodies[0].trajectory).first > 30) show.timeline[0].camera.attitude = LookOutward{};
+  show.point_spread.min_sigma = show.point_spread.max_sigma = 0.2 * kDegree;
+  FloatImage frame = body_frame(show);
+  for (int row = 0; row < frame.height; ++row)
+    for (int column = 0; column < frame.width; ++column)
+      if (std::hypot(row - 100, column - 100) > 40)
+        std::fill_n(frame.row(row) + std::ptrdiff_t{3} * column, 3, 0.0f);
+  return frame;
+}
+
+// The nearer one hides the other, in whatever order the show names them.  Light that comes straight from
+// beyond the observer has one v all along.
+TEST(Bodies, HideThoseBehindThem) {
+  struct Line {
+    double near, far, unit;  // M; of radii
+  };
+  for (const Line& line : {Line{20, 10, 1}, Line{36, 45, 0.6}}) {
+    const Body wide = body_in_line(line.near, line.unit, -8),
+               narrow = body_in_line(line.near, 0.2 * line.unit, -8),
+               spark = body_in_line(line.near, 0, -8),
+               ball = body_in_line(line.far, line.unit, -14), star = body_in_line(line.far, 0, -14),
+               pea = body_in_line(line.far, 0.5 * line.unit, -14);
+    const double hidden = light_of(frame_in_line({wide})).sum;
+    const auto expect_hidden = [&](const Body& behind, const std::vector<Body>& both) {
+      const double alone = light_of(frame_in_line({behind})).sum;
+      EXPECT_GT(alone, 20 * hidden);
+      EXPECT_NEAR(light_of(frame_in_line(both)).sum, hidden, 1e-6 * alone);
+    };
+    expect_hidden(star, {star, wide});
+    expect_hidden(pea, {wide, pea});
+    const FloatImage small = frame_in_line({narrow}), large = frame_in_line({ball});
+    for (const FloatImage& both : {frame_in_line({narrow, ball}), frame_in_line({ball, narrow})}) {
+      const float *middle = both.row(100) + 3 * 100, *alone = small.row(100) + 3 * 100;
+      EXPECT_NEAR(middle[1] / alone[1], 1, 0.01) << line.near;
+      const double left = light_of(both).sum / (light_of(large).sum + light_of(small).sum);
+      EXPECT_GT(left, 0.6);
+      EXPECT_LT(left, 0.98);
+    }
+    // A point hides nothing.
+    EXPECT_NEAR(light_of(frame_in_line({spark, ball})).sum /
+                    (light_of(frame_in_line({spark})).sum + light_of(large).sum),
+                1, 1e-5);
+  }
+}
+
 // Discs that stand across the orbit, in a plane at an azimuth between the observer's and the body's
 // or beyond both.  The direct light crosses the first at r = 14.
 TEST(Bodies, AreHiddenByADiscBeforeThem) {

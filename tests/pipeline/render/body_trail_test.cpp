@@ -52,7 +52,10 @@ std::vector<StarImage> images(const Show& show, const FrameState& state, const B
   const FramePlan plan = plan_frame(show, state);
   const FrameScene scene(show, state, plan, lens_of(state.observer, plan.wanted(), show.effects),
                          {}, {}, nullptr, times);
-  return images_of_bodies(scene, scene.bodies, nullptr).light;
+  std::vector<StarImage> all;
+  for (const BodyImages& drawn : images_of_bodies(scene, scene.bodies, nullptr))
+    all.insert(all.end(), drawn.light.begin(), drawn.light.end());
+  return all;
 }
 
 double light(const std::vector<StarImage>& images) {
