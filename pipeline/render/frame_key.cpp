@@ -39,6 +39,42 @@ void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
       .add(sky.soft_limit ? "soft" : "hard");
 }
 
+void add_bodies(Digest& digest, const Show& show) {
+  for (const Body& body : show.bodies) {
+    digest.add("body").add(kBodiesVersion);
+    for (const V3d& v : {body.normal.v, body.node.v})
+      for (const double x : {v.x, v.y, v.z}) digest.add(rounded_for_key(x));
+    // The start of a free motion determines all of it.
+    const OrbitPoint start = point_at(body.trajectory, body.start);
+    digest.add(static_cast<int>(body.trajectory.index())).add(static_cast<int>(start.tetrad));
+    for (const double x : {start.r, start.celerity.x, start.celerity.z})
+      digest.add(rounded_for_key(x));
+    if (show.spacetime.is<SpinningHole>())
+      for (const double x : {start.theta, start.celerity.y}) digest.add(rounded_for_key(x));
+    for (const double x :
+         {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
+          body.temperature, body.magnitude, body.radius, body.granulation})
+      digest.add(x);
+    add_surface(digest, body);
+  }
+}
+
+void add_output(Digest& digest, const Show& show) {
+  // A show that changes from halves to floats, or back, makes all of its frames again.
+  if (RenderedFrame::keeps_floats(show)) digest.add("float");
+  if (!show.output.layers.empty()) {
+    digest.add("layers");
+    for (const Layer layer : show.output.layers) digest.add(kind_of(layer).name);
+    if (show.output.layer_files) digest.add("apart");
+  }
+  const OutputData& data = show.output.data;
+  if (data.any()) {
+    digest.add("data").add((data.lens ? 1 : 0) + (data.mattes ? 2 : 0) +
+                           (data.cryptomatte ? 4 : 0));
+    for (const Body& body : show.bodies) digest.add(body.name);
+  }
+}
+
 }  // namespace
 
 // The stamp is taken before the file is read, so that touched_asset() sees a change in between.
@@ -133,36 +169,8 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   if (show.glare.share > 0)
     common.add("glare").add(kGlareVersion).add(show.glare.share).add(show.glare.sigma);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
-  for (const Body& body : show.bodies) {
-    common.add("body").add(kBodiesVersion);
-    for (const V3d& v : {body.normal.v, body.node.v})
-      for (const double x : {v.x, v.y, v.z}) common.add(rounded_for_key(x));
-    // The start of a free motion determines all of it.
-    const OrbitPoint start = point_at(body.trajectory, body.start);
-    common.add(static_cast<int>(body.trajectory.index())).add(static_cast<int>(start.tetrad));
-    for (const double x : {start.r, start.celerity.x, start.celerity.z})
-      common.add(rounded_for_key(x));
-    if (show.spacetime.is<SpinningHole>())
-      for (const double x : {start.theta, start.celerity.y}) common.add(rounded_for_key(x));
-    for (const double x :
-         {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
-          body.temperature, body.magnitude, body.radius, body.granulation})
-      common.add(x);
-    add_surface(common, body);
-  }
-  // A show that changes from halves to floats, or back, makes all of its frames again.
-  if (RenderedFrame::keeps_floats(show)) common.add("float");
-  if (!show.output.layers.empty()) {
-    common.add("layers");
-    for (const Layer layer : show.output.layers) common.add(kind_of(layer).name);
-    if (show.output.layer_files) common.add("apart");
-  }
-  const OutputData& data = show.output.data;
-  if (data.any()) {
-    common.add("data").add((data.lens ? 1 : 0) + (data.mattes ? 2 : 0) +
-                           (data.cryptomatte ? 4 : 0));
-    for (const Body& body : show.bodies) common.add(body.name);
-  }
+  add_bodies(common, show);
+  add_output(common, show);
   common_ = common.hex();
   Digest three;
   add_sky(three, show.sky[SkyRegion::kIII]);

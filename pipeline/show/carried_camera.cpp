@@ -11,18 +11,18 @@ namespace domefall {
 namespace {
 
 template <class Kind, class... Kinds>
-constexpr bool is_one_of = (std::is_same_v<Kind, Kinds> || ...);
+constexpr bool kIsOneOf = (std::is_same_v<Kind, Kinds> || ...);
 
 enum class Carrier { kHeld, kFalling, kFlown, kNone };
 
 Carrier carrier_of(const Trajectory& trajectory) {
   return std::visit(
       []<class Kind>(const Kind&) {
-        if (is_one_of<Kind, StaticObserver, CircularOrbit, ChargedCircle, KerrCircling>)
+        if (kIsOneOf<Kind, StaticObserver, CircularOrbit, ChargedCircle, KerrCircling>)
           return Carrier::kHeld;
-        if (is_one_of<Kind, RadialInfall, Geodesic, ChargedOrbit, KerrOrbit>)
+        if (kIsOneOf<Kind, RadialInfall, Geodesic, ChargedOrbit, KerrOrbit>)
           return Carrier::kFalling;
-        if (is_one_of<Kind, AcceleratedPath, Spiral, BrakedFlight, KerrFlight>)
+        if (kIsOneOf<Kind, AcceleratedPath, Spiral, BrakedFlight, KerrFlight>)
           return Carrier::kFlown;
         return Carrier::kNone;
       },
