@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pipeline/light/kerr_body_image.h"
+#include "pipeline/light/kerr_ergosphere.h"
 #include "pipeline/light/kerr_points.h"
 #include "pipeline/light/kerr_sphere_image.h"
 #include "pipeline/light/kerr_view.h"
@@ -14,8 +15,38 @@ namespace {
 
 using std::numbers::pi;
 
-// The corners of a border.
-constexpr int kCorners = 4096;
+// The corners of a border, and of a ring.
+constexpr int kCorners = 4096, kRingCorners = 1024;
+
+// Returns the corners of a curve, counter-clockwise about -R as seen from where the directions begin.
+template <class Delta>
+std::vector<V3d> corners_of(int count, const Delta& delta) {
+  std::vector<V3d> corners;
+  corners.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const double eta = -2 * pi * k / count;
+    corners.push_back(kerr_view(delta(eta), eta));
+  }
+  return corners;
+}
+
+// Returns where the image of the sky is turned over first, on the way from the far end of the view to
+// the edge.
+double first_critical_delta(const KerrChart& chart, double eta) {
+  const double column = eta * chart.columns() / (2 * pi);
+  const auto turned_over = [&](double row) {
+    const KerrChart::Value at = chart.value(row, column);
+    return at.sky.dot(at.by_row.cross(at.by_column)) > 0;
+  };
+  double far = chart.rows() - 0.5, near = far;
+  const bool first = turned_over(far);
+  while (near > 0 && turned_over(near) == first) far = near, near -= 0.5;
+  for (int k = 0; k < 30; ++k) {
+    const double middle = (far + near) / 2;
+    (turned_over(middle) == first ? far : near) = middle;
+  }
+  return chart.direction(far, column).delta;
+}
 
 // Fills in the derivative by its singular values.
 void set_derivative(const V3d& d, const V3d& e, const ViewAxes& view, const V3d& sky,
@@ -130,20 +161,29 @@ ViewRay KerrLens::ray(const V3d& n) const {
 }
 
 std::vector<SkyBorder> KerrLens::borders() const {
-  std::vector<SkyBorder> borders;
-  for (const KerrChart* one : {charts_->own.get(), charts_->beyond.get()}) {
-    if (!one) continue;
-    std::vector<V3d> corners;
-    corners.reserve(kCorners);
-    // Counter-clockwise about -R, as seen from where the directions begin.
-    for (int k = 0; k < kCorners; ++k) {
-      const double eta = -2 * pi * k / kCorners;
-      corners.push_back(kerr_view(one->edge(eta).delta, eta));
-    }
-    const bool own = one->sky() == KerrEdge::kSilhouette;
-    borders.push_back({corners, !own, own ? SkyRegion::kI : SkyRegion::kIII});
-  }
+  const auto corners = [&](KerrEdge edge) {
+    return corners_of(kCorners, [&](double eta) {
+      return static_cast<double>(critical_ray(charts_->at, eta, edge).delta);
+    });
+  };
+  std::vector<SkyBorder> borders{{corners(KerrEdge::kSilhouette), false, SkyRegion::kI}};
+  if (charts_->at.delta() < 0)
+    borders.push_back({corners(KerrEdge::kRegionThree), true, SkyRegion::kIII});
   return borders;
+}
+
+std::vector<ViewCurve> KerrLens::einstein_rings() const {
+  std::vector<ViewCurve> rings;
+  for (const KerrChart* one : {charts_->own.get(), charts_->beyond.get()})
+    if (one)
+      rings.emplace_back(
+          corners_of(kRingCorners, [&](double eta) { return first_critical_delta(*one, eta); }));
+  return rings;
+}
+
+std::optional<ViewCurve> KerrLens::ergosphere() const {
+  if (in_ergosphere(charts_->at)) return std::nullopt;
+  return ergosphere_outline(charts_->at);
 }
 
 std::unique_ptr<const SkyPoints> KerrLens::points(SkyRegion sky,

@@ -32,6 +32,8 @@ class KerrLens : public Lens {
   // This is the exact ray.
   ViewRay ray(const V3d& direction) const override;
   std::vector<SkyBorder> borders() const override;
+  std::vector<ViewCurve> einstein_rings() const override;
+  std::optional<ViewCurve> ergosphere() const override;
   std::unique_ptr<const SkyPoints> points(
       SkyRegion sky, const std::optional<PointTolerance>& tolerance) const override;
   V3d primary_image(const V3d& source) const override;

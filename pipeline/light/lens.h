@@ -137,8 +137,12 @@ class Lens {
   // Returns the borders of the skies that are seen.  That of the tetrad's own sky comes first.
   virtual std::vector<SkyBorder> borders() const { return {}; }
   // Returns the curves on which the point straight behind the hole is seen first, one for each sky
-  // that is known.
+  // that is known.  About a spin no point is seen as a ring, and the curves are those on which points
+  // of the first caustic are seen without end bright.
   virtual std::vector<ViewCurve> einstein_rings() const { return {}; }
+  // Returns the outline of a spinning hole's ergosphere (kerr_ergosphere.h), which is seen from
+  // outside of it.
+  virtual std::optional<ViewCurve> ergosphere() const { return std::nullopt; }
   // Finds images of points of a sky, in batches if a tolerance is given.  Nothing is returned where
   // the sky is not seen or not known.  The lens must outlive what is returned.
   virtual std::unique_ptr<const SkyPoints> points(

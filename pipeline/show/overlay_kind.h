@@ -18,18 +18,20 @@ enum class OverlayKind {
   kSweetSpot,
   kSilhouette,
   kEinsteinRing,
+  kErgosphere,
   kStarNames,
   kBurnIn,
   kNoTitles,
 };
 
-inline constexpr std::array<std::pair<OverlayKind, std::string_view>, 9> kOverlays{
+inline constexpr std::array<std::pair<OverlayKind, std::string_view>, 10> kOverlays{
     {{OverlayKind::kGrid, "grid"},
      {OverlayKind::kRim, "rim"},
      {OverlayKind::kSafeArea, "safe_area"},
      {OverlayKind::kSweetSpot, "sweet_spot"},
      {OverlayKind::kSilhouette, "silhouette"},
      {OverlayKind::kEinsteinRing, "einstein_ring"},
+     {OverlayKind::kErgosphere, "ergosphere"},
      {OverlayKind::kStarNames, "star_names"},
      {OverlayKind::kBurnIn, "burn_in"},
      {OverlayKind::kNoTitles, "no_titles"}}};

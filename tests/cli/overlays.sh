@@ -39,6 +39,26 @@ same_pixels plain.png rim.png && fail "the preview has no overlay"
 exits 0 "$DOMEFALL" movie show.yaml --preset review --overlay rim --out rim.mp4
 exits 0 "$DOMEFALL" movie show.yaml --preset hap --from drawn --overlay "$all" --out drawn.mov
 
+# About a spin, too, from outside the ergosphere and in it.
+cat >spin.yaml <<'END'
+title: Spin
+frames_per_second: 4
+size: 96
+black_hole: {mass_solar: 4.3e6, spin: 0.9}
+sky: {region_I: {background: black, stars: {gain: 0}}}
+timeline: [{duration_s: 1, trajectory: {type: infall, from_r: 5, to_r: 1.5}}]
+END
+exits 0 "$DOMEFALL" preview spin.yaml --frame 0 --size 64x48 --out bare.png
+for overlay in silhouette einstein_ring ergosphere; do
+  exits 0 "$DOMEFALL" preview spin.yaml --frame 0 --size 64x48 --overlay $overlay --out curve.png
+  same_pixels bare.png curve.png && fail "no $overlay about a spin"
+done
+exits 0 "$DOMEFALL" preview spin.yaml --frame 3 --size 64x48 --out bare.png
+exits 0 "$DOMEFALL" preview spin.yaml --frame 3 --size 64x48 --overlay ergosphere --out words.png
+same_pixels bare.png words.png && fail "nothing says that the observer is in the ergosphere"
+exits 2 "$DOMEFALL" render show.yaml --overlay rim,ergosphere
+says '^--overlay rim,ergosphere: only a hole that spins has an ergosphere'
+
 exits 2 "$DOMEFALL" render show.yaml --overlay ''
 says "^argument 4, after '--overlay', is empty"
 exits 2 "$DOMEFALL" render show.yaml --overlay ,

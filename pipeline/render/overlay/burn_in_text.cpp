@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "pipeline/light/kerr_ergosphere.h"
+#include "pipeline/light/kerr_lens.h"
 #include "pipeline/render/rays/shift_range.h"
 #include "pipeline/show/file/show_time.h"
 
@@ -35,7 +37,8 @@ std::string motion_text(const Show& show, const ObserverState& o) {
 
 std::string place_text(const ObserverState& o) {
   if (is_flat(o)) return "flat space";
-  return fmt::format("region {}\nr = {} M", region_name(o.region, o.universe), five_digits(o.r));
+  return fmt::format("region {}\nr = {} M{}", region_name(o.region, o.universe), five_digits(o.r),
+                     is_in_ergosphere(o) ? "\nin the ergosphere" : "");
 }
 
 std::string clock_of(const ObserverState& o) {
@@ -45,6 +48,11 @@ std::string clock_of(const ObserverState& o) {
 }
 
 }  // namespace
+
+bool is_in_ergosphere(const ObserverState& observer) {
+  const auto* hole = std::get_if<SpinningHole>(&observer.spacetime.kind());
+  return hole && in_ergosphere(kerr_place(*hole, observer));
+}
 
 BurnInText burn_in_text(const Show& show, const FrameState& state) {
   const ObserverState& observer = dominant_view(state).observer;

@@ -13,13 +13,16 @@ namespace domefall {
 // frame.  In a dissolve they belong to the view that is seen better.
 struct BurnInText {
   std::string top_left;     // the frame's number and the show's time
-  std::string top_right;    // the region and r
+  std::string top_right;    // the region and r, and whether that is in an ergosphere
   std::string bottom_left;  // the proper time
   // The last text gives the speed and the range of 1 + z of the light of one sky, which is the own
   // sky of the observer's tetrad.  The speed is the one against an observer at rest, where there
   // can be one.  Elsewhere the text gives the celerity against free fall.
   std::string bottom_right;
 };
+// Says whether an observer is in the ergosphere of a hole that spins.
+bool is_in_ergosphere(const ObserverState& observer);
+
 BurnInText burn_in_text(const Show& show, const FrameState& state);
 
 }  // namespace domefall

@@ -118,7 +118,8 @@ void add_sweet_spot(Marks& marks) {
 constexpr std::pair<OverlayKind, std::array<double, 3>> kOverlayLights[]{
     {OverlayKind::kGrid, {0.15, 0.2, 0.3}},     {OverlayKind::kRim, {1, 1, 1}},
     {OverlayKind::kSafeArea, {0.1, 1, 0.2}},    {OverlayKind::kSweetSpot, {1, 0.8, 0.1}},
-    {OverlayKind::kSilhouette, {1, 0.15, 0.1}}, {OverlayKind::kEinsteinRing, {0.1, 0.6, 1}}};
+    {OverlayKind::kSilhouette, {1, 0.15, 0.1}}, {OverlayKind::kEinsteinRing, {0.1, 0.6, 1}},
+    {OverlayKind::kErgosphere, {1, 0.4, 0.8}}};
 
 WorkingRgb light_of(OverlayKind overlay) {
   for (const auto& [kind, rgb] : kOverlayLights) {
@@ -129,7 +130,7 @@ WorkingRgb light_of(OverlayKind overlay) {
   return {1, 1, 1};
 }
 
-// Draws the silhouette or the Einstein rings.  Without lensing there is neither.
+// Draws the silhouette, the Einstein rings or the ergosphere.  Without lensing there are none.
 void draw_curves(OverlayKind overlay, const Show& show, const FrameState& state, double opacity,
                  const FrameRef& frame) {
   if (!show.effects.lensing) return;
@@ -138,7 +139,9 @@ void draw_curves(OverlayKind overlay, const Show& show, const FrameState& state,
   Marks marks(state, frame);
   if (rings)
     for (const ViewCurve& ring : tracer.einstein_rings()) marks.curve(ring);
-  else
+  if (overlay == OverlayKind::kErgosphere)
+    if (const auto outline = tracer.ergosphere()) marks.curve(*outline);
+  if (overlay == OverlayKind::kSilhouette)
     for (const SkyBorder& border : tracer.borders()) marks.curve(border.curve);
   marks.draw(light_of(overlay), opacity, frame);
 }
@@ -152,7 +155,8 @@ double mark_width(const Projection& projection) {
 
 void draw_marks(OverlayKind overlay, const Show& show, const FrameState& state,
                 const FrameRef& frame) {
-  if (overlay == OverlayKind::kSilhouette || overlay == OverlayKind::kEinsteinRing) {
+  if (overlay == OverlayKind::kSilhouette || overlay == OverlayKind::kEinsteinRing ||
+      overlay == OverlayKind::kErgosphere) {
     draw_curves(overlay, show, state, 1 - state.vanishing_part, frame);
     if (state.vanishing) draw_curves(overlay, show, *state.vanishing, state.vanishing_part, frame);
     return;

@@ -13,22 +13,24 @@ namespace domefall {
 namespace {
 
 // This number is raised with every change of how overlays are drawn.
-constexpr int kOverlayVersion = 3;
+constexpr int kOverlayVersion = 4;
 
 LetterStyle burn_in_style(TextAlign align) { return {"Monospace", align}; }
 
-// Puts a text into a corner of the image, on a dark ground that makes it legible on bright skies.
-void draw_in_corner(const std::string& text, bool right, bool bottom, const Projection& projection,
-                    const FrameRef& frame) {
+// Puts a text into a corner of the image, or between two, on a dark ground that makes it legible on
+// bright skies.
+void draw_at_rim(const std::string& text, TextAlign align, bool bottom,
+                 const Projection& projection, const FrameRef& frame) {
   // Lines of 28 letters fit beside the circle of a dome.
   constexpr double kLetterPart = 1. / 88, kLeastLetter = 5.5, kGround = 0.6;
   const double letter = std::max(kLeastLetter, kLetterPart * shorter_side(projection));
   const ScreenSides pixel = screen_sides(projection);
-  const LetteredText letters =
-      lettered(text, burn_in_style(right ? TextAlign::kRight : TextAlign::kLeft));
+  const LetteredText letters = lettered(text, burn_in_style(align));
   const double high = letter / pixel.y, wide = letter / pixel.x;  // of a capital, in pixels
   const double w = letters.half_width * wide, h = letters.half_height * high;
-  const ImagePoint middle{right ? frame.width - w - wide : w + wide,
+  const ImagePoint middle{align == TextAlign::kRight    ? frame.width - w - wide
+                          : align == TextAlign::kCentre ? frame.width / 2.0
+                                                        : w + wide,
                           bottom ? frame.height - h - high : h + high};
   const double x = w + wide / 2, y = h + high / 2;
   Coverage ground(frame.width, frame.height), written(frame.width, frame.height);
@@ -43,10 +45,17 @@ void draw_in_corner(const std::string& text, bool right, bool bottom, const Proj
 
 void draw_burn_in(const Show& show, const FrameState& state, const FrameRef& frame) {
   const BurnInText corners = burn_in_text(show, state);
-  draw_in_corner(corners.top_left, false, false, state.projection, frame);
-  draw_in_corner(corners.top_right, true, false, state.projection, frame);
-  draw_in_corner(corners.bottom_left, false, true, state.projection, frame);
-  draw_in_corner(corners.bottom_right, true, true, state.projection, frame);
+  draw_at_rim(corners.top_left, TextAlign::kLeft, false, state.projection, frame);
+  draw_at_rim(corners.top_right, TextAlign::kRight, false, state.projection, frame);
+  draw_at_rim(corners.bottom_left, TextAlign::kLeft, true, state.projection, frame);
+  draw_at_rim(corners.bottom_right, TextAlign::kRight, true, state.projection, frame);
+}
+
+// The ergosphere has no outline for who is in it.
+void draw_ergosphere(const Show& show, const FrameState& state, const FrameRef& frame) {
+  if (is_in_ergosphere(dominant_view(state).observer))
+    draw_at_rim("in the ergosphere", TextAlign::kCentre, true, state.projection, frame);
+  draw_marks(OverlayKind::kErgosphere, show, state, frame);
 }
 
 }  // namespace
@@ -62,6 +71,7 @@ std::string overlays_key(const Show& show, const FrameState& state) {
   };
   for (const OverlayKind overlay : show.overlays) {
     if (overlay == OverlayKind::kStarNames) add_font(label_style());
+    if (overlay == OverlayKind::kErgosphere) add_font(burn_in_style(TextAlign::kCentre));
     if (overlay != OverlayKind::kBurnIn) continue;
     add_font(burn_in_style(TextAlign::kLeft));
     const BurnInText corners = burn_in_text(show, state);
@@ -77,6 +87,8 @@ void draw_overlays(const Show& show, const FrameState& state, StarLabels& labels
   for (const OverlayKind overlay : show.overlays) {
     if (overlay == OverlayKind::kBurnIn)
       draw_burn_in(show, state, frame);
+    else if (overlay == OverlayKind::kErgosphere)
+      draw_ergosphere(show, state, frame);
     else if (overlay == OverlayKind::kStarNames)
       labels.draw(dominant_view(state), frame, left);
     else if (overlay != OverlayKind::kNoTitles)

@@ -168,4 +168,9 @@ std::vector<ViewCurve> ViewTracer::einstein_rings() const {
   return rings;
 }
 
+std::optional<ViewCurve> ViewTracer::ergosphere() const {
+  const std::optional<ViewCurve> outline = lens_->ergosphere();
+  return outline ? std::optional(seen(*outline)) : std::nullopt;
+}
+
 }  // namespace domefall

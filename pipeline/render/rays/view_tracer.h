@@ -54,6 +54,7 @@ class ViewTracer {
   // Return the curves of the lens, which works in the reference tetrad, as the camera sees them.
   std::vector<SkyBorder> borders() const;
   std::vector<ViewCurve> einstein_rings() const;
+  std::optional<ViewCurve> ergosphere() const;
 
   // Says whether light near the hole goes straight, which a show may ask for.
   bool goes_straight() const { return to_lens_.has_value(); }

@@ -167,6 +167,11 @@ void overlay(Show& show, const std::string& names) {
   } catch (const InputError& error) {
     throw InputError("--overlay " + names + ": " + error.what());
   }
+  if (std::ranges::count(show.overlays, OverlayKind::kErgosphere) > 0 &&
+      !show.spacetime.is<SpinningHole>())
+    throw InputError("--overlay " + names +
+                     ": only a hole that spins has an ergosphere; give black_hole a spin, or leave "
+                     "ergosphere out");
   const bool flat = std::ranges::all_of(
       show.overlays, [](OverlayKind kind) { return kind >= OverlayKind::kBurnIn; });
   if (traits_of(show.projection).has_faces && !flat)

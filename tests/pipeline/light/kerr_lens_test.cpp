@@ -351,6 +351,46 @@ TEST(KerrChart, HoldsASkyThatIsSmall) {
   }
 }
 
+// On the ring the image of the sky is turned over, and nowhere farther from the hole.
+TEST(KerrLens, HasItsRingWhereImagesTurnOver) {
+  for (const SpinPlace& place :
+       {places()[0], places()[1], places()[4], SpinPlace{0.99, 0, 20, pi / 2}}) {
+    const auto lens = LensStore().lens(place.observer(), {{true, false, false, false}});
+    const auto turned_over = [&](double delta, double eta) {
+      const TracedKerr ray = trace_kerr(place.at(), {delta, eta});
+      return ray.sky.dot(ray.by_delta.cross(ray.across)) > 0;
+    };
+    const bool first = turned_over(3.1, 0.5);
+    const auto corners = std::get<std::vector<V3d>>(lens->einstein_rings().at(0));
+    for (std::size_t k = 0; k < corners.size(); k += kSanitized ? 128 : 16) {
+      const V3d& n = corners[k];
+      const double delta = std::atan2(std::hypot(n.y, n.z), -n.x), eta = std::atan2(-n.z, -n.y);
+      EXPECT_EQ(turned_over(delta + 1e-4, eta), first) << place.r << " " << eta;
+      EXPECT_NE(turned_over(delta - 1e-4, eta), first) << place.r << " " << eta;
+      for (int i = 1; i < 30; ++i)
+        ASSERT_EQ(turned_over(std::lerp(delta, pi, i / 30.0), eta), first) << place.r << " " << eta;
+    }
+  }
+}
+
+// Edges are known without tables, and rings of skies with one.
+TEST(KerrLens, HasCurvesAsALensOfASphereHas) {
+  SpinPlace place{1e-9, 1e-12, 8, 1.3};
+  ObserverState o = place.observer();
+  const auto spinning = LensStore().lens(o, {{true, false, false, false}}),
+             bare = LensStore().lens(o, {{false, false, false, false}});
+  o.spacetime = ChargedHole(1, place.charge);
+  const auto still = LensStore().lens(o, {{true, false, false, false}});
+  EXPECT_TRUE(bare->einstein_rings().empty());
+  const auto compare = [](const ViewCurve& curve, const ViewCurve& other) {
+    const auto& circle = std::get<ViewCircle>(other);
+    for (const V3d& n : std::get<std::vector<V3d>>(curve))
+      ASSERT_NEAR(n.dot(circle.axis), circle.cosine, 1e-6);
+  };
+  compare(bare->borders().at(0).curve, still->borders().at(0).curve);
+  compare(spinning->einstein_rings().at(0), still->einstein_rings().at(0));
+}
+
 // The silhouette of an observer far away, Bardeen's curve.
 TEST(KerrLens, HasBardeensSilhouette) {
   for (const double spin : {0.3, 0.7, 0.94, 0.998, 0.999999})
