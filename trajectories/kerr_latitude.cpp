@@ -14,6 +14,12 @@ using std::numbers::pi;
 KerrLatitude::KerrLatitude(double k, const V3d& n, const V3d& speed)
     : c_(speed.length2() - k * n.z * n.z), k_(k) {
   follow({0, n, speed});
+  series_.reserve(nodes_.size());
+  for (const Node& node : nodes_) series_.push_back(series(node));
+}
+
+KerrLatitude::NodeSeries KerrLatitude::series_of(const Node& node) const {
+  return series_.empty() ? series(node) : series_[static_cast<std::size_t>(&node - nodes_.data())];
 }
 
 KerrLatitude::NodeSeries KerrLatitude::series(const Node& at) const {
@@ -84,7 +90,7 @@ KerrLatitude::Node KerrLatitude::at(double l) const {
   const double periods = period_ < HUGE_VAL ? std::floor(l / period_) : 0;
   const double rest = periods != 0 ? l - periods * period_ : l;
   const Node& node = node_before(nodes_, rest);
-  Node there = after(node, series(node), rest - node.l);
+  Node there = after(node, series_of(node), rest - node.l);
   there.l = l;
   if (periods != 0) {
     const double angle = periods * sums_.turned, cosine = std::cos(angle), sine = std::sin(angle);

@@ -33,11 +33,13 @@ class KerrLatitude {
     double reach;
   };
   NodeSeries series(const Node& at) const;
+  NodeSeries series_of(const Node& node) const;
   static Node after(const Node& at, const NodeSeries& s, double h);
   void follow(const Node& start);
 
   double c_, k_;
   std::vector<Node> nodes_;
+  std::vector<NodeSeries> series_;  // of the nodes, once all are there
   double period_ = HUGE_VAL;
   Node sums_{};  // of a period
 };

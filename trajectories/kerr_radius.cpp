@@ -23,6 +23,13 @@ KerrRadius::KerrRadius(const KerrHole& hole, const KerrMotion& motion, double r,
       least_(r),
       greatest_(r) {
   follow({0, r, speed_at(r, speed)});
+  if (circles_) return;
+  series_.reserve(nodes_.size());
+  for (const Node& node : nodes_) series_.push_back(series(node));
+}
+
+KerrRadius::NodeSeries KerrRadius::series_of(const Node& node) const {
+  return series_.empty() ? series(node) : series_[static_cast<std::size_t>(&node - nodes_.data())];
 }
 
 KerrRadius::NodeSeries KerrRadius::series(const Node& at) const {
@@ -174,7 +181,7 @@ KerrRadius::Node KerrRadius::at(const DoubleDouble& l) const {
   const double periods = has_period() ? std::floor(double(l) / period_) : 0;
   const DoubleDouble rest = periods != 0 ? l - periods * period_ : l;
   const Node& node = node_before(nodes_, rest);
-  Node there = after(node, series(node), double(rest - node.l));
+  Node there = after(node, series_of(node), double(rest - node.l));
   there.l = l;
   if (periods != 0) {
     there.squares = there.squares + periods * double(sums_.squares);
@@ -198,7 +205,7 @@ std::optional<DoubleDouble> KerrRadius::passage(double r, bool outward,
   std::optional<DoubleDouble> found;
   for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
     const Node &from = nodes_[k], &to = nodes_[k + 1];
-    const NodeSeries s = series(from);
+    const NodeSeries s = series_of(from);
     // A turn between two nodes divides their way.
     const auto end = double(to.l - from.l);
     const double turn = (from.speed > 0) != (to.speed > 0)
@@ -221,7 +228,7 @@ std::optional<DoubleDouble> KerrRadius::next_least(const DoubleDouble& after_l) 
   for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
     const Node &from = nodes_[k], &to = nodes_[k + 1];
     if (from.speed > 0 || !(to.speed > 0)) continue;
-    const NodeSeries s = series(from);
+    const NodeSeries s = series_of(from);
     const auto l = first_after(
         from.l + zero_between([&s](double x) { return s.speed(x); }, 0, double(to.l - from.l)),
         after_l);

@@ -53,6 +53,7 @@ class KerrRadius {
     double speed(double l) const { return slope(r, l / unit) / unit; }
   };
   NodeSeries series(const Node& at) const;
+  NodeSeries series_of(const Node& node) const;
   Node after(const Node& at, const NodeSeries& s, double h) const;
   // Returns r' of a radius, with the sign of a value that is nearly right, which is kept next to a turn.
   double speed_at(double r, double nearly) const;
@@ -64,7 +65,8 @@ class KerrRadius {
   KerrHole hole_;
   double spin_, energy_, excess_, carter_, charges_, constant_;  // excess is E^2 - 1; P - E r^2
   std::vector<Node> nodes_;
-  bool circles_ = false;  // whether r stays
+  std::vector<NodeSeries> series_;  // of the nodes, once all are there
+  bool circles_ = false;            // whether r stays
   double period_ = HUGE_VAL;
   Node sums_{};  // of a period
   DoubleDouble first_ = -HUGE_VAL, last_ = HUGE_VAL;
