@@ -44,6 +44,7 @@ struct KerrOrbit::Path {
   KerrMotion motion;
   KerrRadius radius;
   KerrLatitude latitude;
+  bool on_axis;  // where the azimuth has no meaning and stays
 
   Path(const KerrHole& of, double r, double theta, const KerrMotion& m)
       : hole(of),
@@ -51,7 +52,8 @@ struct KerrOrbit::Path {
         motion(m),
         radius(of, m, r, radial_speed(of, r, theta, m)),
         latitude(a * a * m.excess, V3d(std::sin(theta), 0, std::cos(theta)),
-                 polar_speed(of, r, theta, m)) {}
+                 polar_speed(of, r, theta, m)),
+        on_axis(std::sin(theta) < 1e-9 && polar_speed(of, r, theta, m).length() < 1e-9) {}
 
   DoubleDouble tau_at(const DoubleDouble& l) const {
     return radius.at(l).squares + a * a * latitude.at(double(l)).squares;
@@ -112,7 +114,7 @@ OrbitPoint KerrOrbit::Path::point(const DoubleDouble& l) const {
   point.region = at.r > static_cast<double>(hole.horizon()) ? Region::kI : Region::kII;
   point.r = at.r;
   point.theta = std::atan2(across, cosine);
-  point.azimuth = place.turned + a * (at.angle - motion.energy * passed);
+  point.azimuth = on_axis ? 0 : place.turned + a * (at.angle - motion.energy * passed);
   point.celerity = {outward / 2 - b, place.speed.dot(south) / size,
                     (place.speed.dot(round) - a * motion.energy * across) / size};
   point.null_time =

@@ -13,6 +13,7 @@ std::array<StateCell, kStateColumns.size()> state_cells(const FrameState& state)
   const Equatorial place = equatorial({column(o.sky_from_tetrad, 0)});
   const V3d x = column(o.tetrad_from_camera, 0), y = column(o.tetrad_from_camera, 1),
             z = column(o.tetrad_from_camera, 2);
+  const auto* hole = std::get_if<SpinningHole>(&o.spacetime.kind());
   const auto all = [](double value) { return StateNumber{value, kAll}; };
   return {state.frame,
           StateNumber{state.show_time_s, kTime},
@@ -38,7 +39,8 @@ std::array<StateCell, kStateColumns.size()> state_cells(const FrameState& state)
           all(z.z),
           all(o.null_time),
           o.universe,
-          all(o.l)};
+          all(o.l),
+          StateNumber{hole ? 90 - polar_angle(o, *hole) * 180 / std::numbers::pi : 0, kAngle}};
 }
 
 }  // namespace domefall

@@ -31,7 +31,8 @@ exits 0 "$DOMEFALL" states fall.yaml
 mv stdout plain.csv
 exits 0 "$DOMEFALL" states fall.yaml --plot fall.svg
 cmp plain.csv stdout || fail "the CSV is another with --plot"
-[[ $(grep -v -m1 '^#' plain.csv) == *,null_time,universe,l ]] || fail "no columns null_time, universe and l"
+[[ $(grep -v -m1 '^#' plain.csv) == *,null_time,universe,l,latitude_deg ]] ||
+  fail "no columns null_time, universe, l and latitude_deg"
 panels fall.svg radius orbit penrose
 grep -q '>A short fall<' fall.svg || fail "no title"
 exits 0 "$DOMEFALL" states "$DOMEFALL_SOURCE/shows/last_stable_orbit.yaml" --frames 0 --plot orbit.svg

@@ -275,6 +275,20 @@ TEST(KerrBound, GoesOverTheAxis) {
   EXPECT_NEAR(std::remainder(over.at(300).azimuth - beside.at(300).azimuth, 2 * pi), 0, 1e-4);
 }
 
+// On the axis there is none, and next to it space drags it along.
+TEST(KerrOrbit, KeepsItsAzimuthOnTheAxis) {
+  const KerrHole hole{0.9L, 0};
+  const auto fall_from = [&](double theta) {
+    return KerrOrbit(hole, 10, theta, *kerr_circling(hole, 10, theta, 0));
+  };
+  for (const double theta : {0.0, pi}) {
+    const KerrOrbit fall = fall_from(theta);
+    EXPECT_EQ(fall.at(20).azimuth, 0);
+    EXPECT_NEAR(fall.at(20).r, fall_from(std::abs(theta - 1e-4)).at(20).r, 1e-6);
+  }
+  EXPECT_NE(fall_from(1e-3).at(20).azimuth, 0);
+}
+
 TEST(KerrOrbit, IsFollowedToTheFarEndsOfShows) {
   for (const double theta : {0.0, 1.0, pi / 2}) {
     const KerrHole hole{0.9L, 0};

@@ -89,6 +89,7 @@ Returns an array in the shape of `frames`, or (show.frames,) for None.  Its colu
     null_time       v = t + r* where the tetrad is rain, u = t - r* where it is outgoing, M
     universe        number of the universe, of those that follow each other through a charged hole
     l               place along a wormhole, in whose throat's radii all lengths are; 0 elsewhere
+    latitude_deg    above the equator of a hole that spins, degrees; 0 elsewhere
 
 so that states["r"] is an array of radii, with all digits of a float64.
 

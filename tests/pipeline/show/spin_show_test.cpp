@@ -5,6 +5,8 @@
 
 #include "pipeline/show/attitude.h"
 #include "pipeline/show/body.h"
+#include "pipeline/show/frame_state.h"
+#include "pipeline/show/state_columns.h"
 #include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
@@ -201,6 +203,27 @@ TEST_F(SpinShow, FliesWithEngines) {
 }
 
 // One mistake is told once.
+TEST_F(SpinShow, TellsTheLatitude) {
+  const auto latitude = [](const Show& s, double time) {
+    return std::get<StateNumber>(state_cells(frame_state(s, nearest_frame(s, time))).back()).value;
+  };
+  EXPECT_EQ(kStateColumns.back(), std::string_view("latitude_deg"));
+  EXPECT_NEAR(latitude(show_with("spin: 0.9, axis: {ra_deg: 3, dec_deg: 20}",
+                                 "  - {duration_s: 4, trajectory: {type: static, r: 9, "
+                                 "latitude_deg: -35}}\n"),
+                       2),
+              -35, 1e-12);
+  const Show fall = show_with("spin: 0.9",
+                              "  - {duration_s: 4, trajectory: {type: infall, from_r: 9, "
+                              "latitude_deg: 90, to_r: 2}}\n");
+  EXPECT_NEAR(latitude(fall, 3), 90, 1e-6);
+  EXPECT_EQ(at(fall, 3).azimuth, 0);
+  EXPECT_EQ(latitude(read("black_hole: {mass_solar: 4}\ntimeline:\n  - {duration_s: 4, trajectory: "
+                          "{type: static, r: 9}}\n"),
+                     2),
+            0);
+}
+
 TEST_F(SpinShow, ASpinInErrorLeavesTheRestAlone) {
   for (const char* more : {"", ", charge: 0.4"}) {
     const std::string told = complaint("black_hole: {mass_solar: 4, spin: 2" + std::string(more) +
