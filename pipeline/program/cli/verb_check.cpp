@@ -48,9 +48,11 @@ void check(const std::string& file, const std::string& out, bool json) {
   Renderer renderer(show, 0, {}, kSurveyDetail);
   AxisStars axis(show);
   NearBodies bodies(show);
+  NearGas gas(show);
   const ShowSurvey found = survey(show, [&](const FrameState& state) {
     axis.add(state);
     bodies.add(state);
+    gas.add(state);
   });
   CheckReport report{show,
                      {},
@@ -71,6 +73,7 @@ void check(const std::string& file, const std::string& out, bool json) {
   }
   for (const ShowWarning& warning : axis.warnings()) report.warnings.push_back(warning);
   for (const ShowWarning& warning : bodies.warnings()) report.warnings.push_back(warning);
+  for (const ShowWarning& warning : gas.warnings()) report.warnings.push_back(warning);
   for (const ShowWarning& warning : horizon_warnings(show)) report.warnings.push_back(warning);
   for (const ShowWarning& warning : place_warnings(show)) report.warnings.push_back(warning);
   for (const ShowWarning& warning : body_warnings(show)) report.warnings.push_back(warning);

@@ -200,14 +200,17 @@ std::string show_warnings_as_json(const Show& show, const std::atomic<bool>& sto
   std::vector<ShowWarning> warnings = jump_warnings(show);
   AxisStars axis(show);
   NearBodies bodies(show);
+  NearGas gas(show);
   for (int frame = 0; frame < frame_count(show); ++frame) {
     if (stop) return {};
     const FrameState state = frame_state(show, frame);
     axis.add(state);
     bodies.add(state);
+    gas.add(state);
   }
   for (const ShowWarning& warning : axis.warnings()) warnings.push_back(warning);
   for (const ShowWarning& warning : bodies.warnings()) warnings.push_back(warning);
+  for (const ShowWarning& warning : gas.warnings()) warnings.push_back(warning);
   for (const ShowWarning& warning : horizon_warnings(show)) warnings.push_back(warning);
   for (const ShowWarning& warning : place_warnings(show)) warnings.push_back(warning);
   for (const ShowWarning& warning : body_warnings(show)) warnings.push_back(warning);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -15,6 +16,7 @@
 #include "pipeline/show/nearest_word.h"
 #include "pipeline/show/observer_track.h"
 #include "pipeline/show/title_text.h"
+#include "pipeline/sources/disc/disc_light.h"
 #include "trajectories/trajectory.h"
 
 namespace domefall {
@@ -200,6 +202,36 @@ std::vector<ShowWarning> NearBodies::warnings() const {
     warning.text = fmt::format(
         "bodies.{} is not drawn, to frame {}: the observer is within its radius of {:.3g} M",
         large.body->name, large.last_frame, large.radius);
+    found.push_back(warning);
+  }
+  return found;
+}
+
+void NearGas::add(const FrameState& state) {
+  if (!show_.disc || !(show_.disc->height > 0)) return;
+  const Disc& disc = *show_.disc;
+  const double r = state.observer.r;
+  if (!(r > disc.inner && r < disc.outer)) return;
+  // The shortest way out is across the plane, to the nearer side.
+  constexpr double kLeft = 0.1;
+  const double off = column(state.observer.sky_from_tetrad, 0).dot(disc.normal.v);
+  const double part = std::erfc(std::abs(off) / disc.height_at(r) / std::numbers::sqrt2) / 2;
+  const double depth = std::min(depth_across(disc, r), 1e6) * part;
+  const double opacity = state.settings.disc_opacity;
+  if (!(1 - opacity + opacity * std::exp(-depth) < kLeft)) return;
+  if (stretches_.empty() || stretches_.back().last_frame + 1 < state.frame)
+    stretches_.push_back({{state.show_time_s, state.frame, state.segment, {}}, state.frame});
+  stretches_.back().last_frame = state.frame;
+}
+
+std::vector<ShowWarning> NearGas::warnings() const {
+  std::vector<ShowWarning> found;
+  for (const Stretch& stretch : stretches_) {
+    ShowWarning warning = stretch.first;
+    warning.text = fmt::format(
+        "the observer is inside opaque gas of the disc, to frame {}: less than a tenth of other "
+        "light comes through it",
+        stretch.last_frame);
     found.push_back(warning);
   }
   return found;

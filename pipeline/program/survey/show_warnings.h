@@ -45,6 +45,29 @@ class NearBodies {
   std::vector<LargeBody> bodies_;
 };
 
+// A NearGas is shown the states in the same way.  It looks for stretches in which the observer is so
+// deep in the gas of a disc with a height that less than a tenth of the light of all else comes
+// through it, whatever the direction.
+class NearGas {
+ public:
+  // The show must outlive this object.
+  explicit NearGas(const Show& show) : show_(show) {}
+
+  void add(const FrameState& state);
+
+  // Returns one warning for each stretch, with the first frame and the last.
+  std::vector<ShowWarning> warnings() const;
+
+ private:
+  struct Stretch {
+    ShowWarning first;
+    int last_frame;
+  };
+
+  const Show& show_;
+  std::vector<Stretch> stretches_;
+};
+
 // Returns a warning for each passage of a horizon of a charged hole at which light of a sky that the
 // show lights is blueshifted without bound.
 std::vector<ShowWarning> horizon_warnings(const Show& show);

@@ -184,6 +184,11 @@ std::optional<TimedTrajectory> read_spin_circle(const Item& item, const Stage& s
 
 // Falls from rest far away, or without angular momentum from rest nearby.
 std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& stage, Lookup&) {
+  for (const char* key : {"v_inf", "impact_parameter"})
+    if (const auto given = peek(item, key))
+      return given->fail(
+          "is of a fall into a hole without spin; into one with a spin a fall with a speed from "
+          "far away is of type thrown");
   const Section s(item, {"trajectory", "begin", "infall about a spin", "end", "rates", "pace"});
   const KerrHole& hole = hole_of(stage);
   const auto a = static_cast<double>(hole.spin);
@@ -224,6 +229,11 @@ std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& sta
 }
 
 std::optional<TimedTrajectory> read_spin_bound(const Item& item, const Stage& stage, Lookup&) {
+  for (const char* key : {"eccentricity", "semilatus_rectum", "excess"})
+    if (const auto given = peek(item, key))
+      return given->fail(
+          "is of an orbit about a hole without spin; about a spin give periastron, apoastron and "
+          "perhaps inclination_deg");
   const Section s(item, {"trajectory", "begin", "bound about a spin", "end", "rates", "pace"});
   const KerrHole& hole = hole_of(stage);
   const auto least = s.required("periastron", outside(stage));

@@ -143,6 +143,11 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   has(complaint_of("{type: bound, periastron: 1.7, apoastron: 9}"), "periastron must be greater");
   has(complaint_of("{type: bound, periastron: 7, apoastron: 6}"), "at least the periastron, 7");
   has(complaint_of("{type: bound, periastron: 7, apoastron: 2e6}"), "apoastron must be at most");
+  has(complaint_of("{type: bound, eccentricity: 0.3, semilatus_rectum: 9}"),
+      "eccentricity is of an orbit about a hole without spin; about a spin give periastron, "
+      "apoastron");
+  has(complaint_of("{type: infall, from_r: 9, v_inf: 0.3, impact_parameter: 0}"),
+      "v_inf is of a fall into a hole without spin");
   has(complaint_of("{type: infall, from_r: 9, angular_momentum: 90}"), "is too much for a fall");
   has(complaint_of("{type: infall, from_r: 20, angular_momentum: 2.7}"), "turns around at r = ");
   EXPECT_EQ(complaint_of("{type: infall, from_r: 20, angular_momentum: 2.6}"), "");

@@ -87,6 +87,39 @@ TEST_F(PlaceWarnings, AHoleThatIsSeenElsewhereIsTold) {
   EXPECT_TRUE(of("at: {ra_deg: 40, dec_deg: 30}", "{type: circular, r: 9}").empty());
 }
 
+class GasWarnings : public ShowFile {
+ protected:
+  std::vector<ShowWarning> of(const std::string& hole, const std::string& disc,
+                              const std::string& trajectory) {
+    const Show show =
+        read("frames_per_second: 10\nblack_hole: {mass_solar: 4e6" + hole + "}\ndisc: {" + disc +
+             "}\ntimeline:\n  - {duration_s: 3, trajectory: " + trajectory + "}\n");
+    NearGas gas(show);
+    survey(show, [&gas](const FrameState& state) { gas.add(state); });
+    return gas.warnings();
+  }
+};
+
+TEST_F(GasWarnings, AreOfAnObserverWithinTheDisc) {
+  // Through the disc's plane in the middle of its way.
+  const std::string over =
+      "{type: bound, periastron: 12, apoastron: 12, inclination_deg: 80, "
+      "from_tau_m: -40, to_tau_m: 40}";
+  const auto warnings = of(", spin: 0.9", "height: 0.1, outer_r: 20, optical_depth: 60", over);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_GT(warnings[0].frame, 0);
+  EXPECT_THAT(warnings[0].text,
+              HasSubstr("the observer is inside opaque gas of the disc, to frame"));
+  EXPECT_THAT(of(", spin: 0.9", "height: 0.1, outer_r: 20, optical_depth: 1", over), IsEmpty());
+  EXPECT_THAT(of(", spin: 0.9", "outer_r: 20, optical_depth: 60", over), IsEmpty());
+  EXPECT_THAT(of(", spin: 0.9", "height: 0.1, outer_r: 11, optical_depth: 60", over), IsEmpty());
+  // About a hole without spin, too.
+  EXPECT_EQ(of("", "height: 0.1, outer_r: 20, optical_depth: 60, inclination_deg: 0",
+               "{type: circular, r: 9}")
+                .size(),
+            1U);
+}
+
 // Warnings of a title in a dome of 256 pixels, of which each is 0.7 degrees, at 10 frames a second.
 class TitleWarnings : public ShowFile {
  protected:
