@@ -35,25 +35,32 @@ double last_proper_time(const Spacetime& spacetime, const Body& body) {
   return end - double(body.start);
 }
 
-// About a hole that spins `normal` is its axis.
+// Returns R, Theta and Phi of a body about a hole that spins, whose axis is `normal`.
+M33d axes_about_spin(const Body& body, const OrbitPoint& start, const OrbitPoint& now) {
+  const V3d &axis = body.normal.v, &node = body.node.v;
+  const double phi = body.azimuth + (now.azimuth - start.azimuth);
+  const V3d out = node * std::cos(phi) + axis.cross(node) * std::sin(phi);
+  const double sine = std::sin(now.theta), cosine = std::cos(now.theta);
+  return from_columns(out * sine + axis * cosine, out * cosine - axis * sine, axis.cross(out));
+}
+
 BodyMotion motion_about_spin(const Body& body, const M33d& sky_from_tetrad) {
-  const V3d axis = apply_transposed(sky_from_tetrad, body.normal.v);
-  const V3d node = apply_transposed(sky_from_tetrad, body.node.v), onward = axis.cross(node);
   const auto point = [&body](double tau) { return point_at(body.trajectory, body.start + tau); };
   const OrbitPoint start = point(0);
   const auto [low, high] = reach(body.trajectory);
   return {[=](double tau) {
             const OrbitPoint now = point(tau);
-            const double phi = body.azimuth + (now.azimuth - start.azimuth);
-            const V3d out = node * std::cos(phi) + onward * std::sin(phi), around = axis.cross(out);
-            const double sine = std::sin(now.theta), cosine = std::cos(now.theta);
-            const V3d place = out * sine + axis * cosine, south = out * cosine - axis * sine;
+            const M33d axes = axes_about_spin(body, start, now);
+            const V3d place = apply_transposed(sky_from_tetrad, column(axes, 0)),
+                      across =
+                          apply_transposed(sky_from_tetrad, column(axes, 1) * now.celerity.y +
+                                                                column(axes, 2) * now.celerity.z);
             return BodyPoint{place,
                              now.r,
                              body.null_time + double(now.null_time - start.null_time),
                              gamma_of(now.celerity),
                              now.celerity.x,
-                             place.cross(south * now.celerity.y + around * now.celerity.z) * now.r};
+                             place.cross(across) * now.r};
           },
           first_proper_time(body),
           lifetime(body.trajectory) - double(body.start),
@@ -106,6 +113,9 @@ Beginning beginning_beside(const Spacetime& spacetime, const Body& body, double 
                            double behind) {
   const BodyPoint at = motion_of(spacetime, body, M33d()).at(tau);
   const OrbitPoint own = point_at(body.trajectory, body.start + tau);
+  if (spacetime.is<SpinningHole>())
+    return {axes_about_spin(body, point_at(body.trajectory, body.start), own),
+            at.null_time + behind};
   // The outgoing tetrad counts u = v - 2 r*.
   const bool outgoing = is_outgoing(own.tetrad) && own.region == Region::kI;
   return {from_columns(at.direction, -body.normal.v, body.normal.v.cross(at.direction)),

@@ -247,10 +247,9 @@ constexpr std::array kTypes{
     Type{"velocity", read_velocity, read_wormhole_velocity, read_spin_velocity, true},
     Type{.name = "body",
          .near_hole = read_with_body,
+         .about_spin = read_with_body,
          .not_in_wormhole = kNoBodies,
-         .not_near_charge = kNoBodies,
-         .not_about_spin =
-             "nobody rides a body about a hole that spins yet; give the trajectory that it has"},
+         .not_near_charge = kNoBodies},
     Type{"continue", read_continue, read_continue, read_continue, true}};
 
 // Says why a type of motion does not exist there.  Nothing is said of one that does.

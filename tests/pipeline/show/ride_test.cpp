@@ -48,6 +48,28 @@ TEST_F(RidesOn, AreWhereTheBodyIs) {
     }
 }
 
+// About a spin, too, whose orbits keep no plane.
+TEST_F(Rides, AreWhereABodyAboutASpinIs) {
+  for (const double behind : {0.0, 3.0}) {
+    const Show show = read(
+        "black_hole: {mass_solar: 4e6, spin: 0.9, axis: {ra_deg: 20, dec_deg: 50}}\n"
+        "bodies:\n  a: {trajectory: {type: bound, periastron: 5, apoastron: 9, inclination_deg: "
+        "50}, azimuth_deg: 33}\n"
+        "timeline:\n  - {duration_s: 9, trajectory: {type: body, body: a, rate_m_per_s: 20, "
+        "behind_m: " +
+        std::to_string(behind) + "}}\n");
+    const BodyMotion motion = motion_of(show.spacetime, show.bodies[0], M33d());
+    for (const double part : {0.0, 0.4, 1.0}) {
+      const ObserverState o = observer_at(show, 0, part);
+      const BodyPoint at = motion.at(o.proper_time - double(show.bodies[0].start));
+      EXPECT_NEAR(o.r, at.r, 1e-12 * at.r);
+      EXPECT_LT((column(o.sky_from_tetrad, 0) - at.direction).length(), 1e-12);
+      EXPECT_LT((apply(o.sky_from_tetrad, o.celerity) - at.celerity()).length(), 1e-12);
+      EXPECT_NEAR(o.null_time, at.null_time + behind, 1e-9);
+    }
+  }
+}
+
 // The light that falls straight in reaches both observers at the cut.
 TEST_F(Rides, BeginInTheLightOfTheSegmentBefore) {
   const Show show =
