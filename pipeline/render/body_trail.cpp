@@ -94,6 +94,7 @@ std::optional<BodyTrails::Passage> BodyTrails::passage_of(const Body& body, int 
 // same.  The two orders whose images meet in a ring have one window, so that the ring has no seams.
 std::optional<BodyTrails::Window> BodyTrails::passage_window_of(const Body& body, int order,
                                                                 const BodyImage& image) {
+  if (now_.lists_images()) return std::nullopt;
   const int half_turns = static_cast<int>(std::lround(image.psi / pi));
   if (half_turns < 1 || scene_.effects.amplification == Amplification::kNone ||
       !(off_axis(image).length() < kFarthestPassage))
@@ -178,6 +179,59 @@ void BodyTrails::add_piece(Trail& trail, const Node& node, double share) const {
     trail.pieces.push_back(
         {moved, node.image->traced.way(), share * piece.solid_angle, piece.tint});
   }
+}
+
+// Returns how far a body at r moves from frame to frame, M, against the caustics, which the observer
+// moves.
+double BodyTrails::way_of(const Body& body, double r) {
+  constexpr double kStep = 0.25;
+  const BodyTimes& times = scene_.body_times;
+  const double begin = std::max(-kStep, times.begin), end = std::min(kStep, times.end);
+  if (!(end > begin)) return 0;
+  const ObserverState &from = moment_at(begin, CameraMotion::kStays).state.observer,
+                      &to = moment_at(end, CameraMotion::kStays).state.observer;
+  const V3d seen_from = column(from.sky_from_tetrad, 0), seen_to = column(to.sky_from_tetrad, 0);
+  const BodyMotion motion = motion_of(from.spacetime, body, M33d());
+  const double tau = now_.image(body, 0)->traced.proper_time;
+  const BodyPoint at = motion.at(tau);
+  const double speed = at.celerity().length() / at.gamma;
+  return (r * (seen_to - seen_from).length() + speed * std::abs(to.null_time - from.null_time)) /
+         (end - begin);
+}
+
+// The weights of a triangle add up to an even exposure from frame to frame.
+std::vector<BodyTrails::Piece> BodyTrails::listed_trail(const Body& body) {
+  constexpr double kBright = 10, kMostParts = 48;
+  const BodyTimes& times = scene_.body_times;
+  if (!times.at || scene_.effects.amplification == Amplification::kNone) return {};
+  double fast = 0, r = 0;
+  for (int order = 0; const auto image = now_.image(body, order); ++order) {
+    const BodyImage& one = image->traced;
+    const double stretch = one.solid_angle_per_area / one.angle_per_length,
+                 apart = one.r + scene_.state.observer.r;
+    // Both long and bright
+    if (stretch > kBright * one.angle_per_length &&
+        one.solid_angle_per_area * apart * apart > kBright)
+      fast = std::max(fast, stretch), r = one.r;
+  }
+  if (!(fast > 0)) return {};
+  const double parts =
+      std::min(std::ceil(fast * way_of(body, r) / scene_.point_spread.least()), kMostParts);
+  if (parts < 4) return {};
+  const Window window{std::max(-1.0, times.begin), std::min(1.0, times.end), 1, 1,
+                      CameraMotion::kStays};
+  Trail trail{body, 0, window, 0};
+  for (double k = -parts; k < parts; ++k) {
+    const double begin = std::max(k / parts, window.begin),
+                 end = std::min((k + 1) / parts, window.end);
+    if (!(end > begin)) continue;
+    for (int order = 0;; ++order) {
+      const Node one = node(body, order, (begin + end) / 2, window.camera);
+      if (!one.image) break;
+      add_piece(trail, one, window.share_of(begin, end));
+    }
+  }
+  return std::move(trail.pieces);
 }
 
 std::vector<BodyTrails::Piece> BodyTrails::trail(const Body& body, int order,

@@ -6,6 +6,10 @@
 // the images of a body race around the Einstein ring, as those of a star do (star_trail.h).  There an
 // image is the mean over the same window of time as a star's.  It stays where the hole is at the
 // instant, however the camera turns.
+//
+// About a hole that spins there is no axis, and images have no orders: they come and go in pairs on
+// caustics.  There all images of a body together are the mean over the time from the frame before to the
+// next one, as those of a star are.
 #pragma once
 
 #include <map>
@@ -38,6 +42,10 @@ class BodyTrails {
   // alone.  `image` is the image at the instant.  The amplifications of all pieces together are the
   // mean over the time of the trail, to 1e-3.
   std::vector<Piece> trail(const Body& body, int order, const BodySight::Image& image);
+
+  // Returns the pieces of all images of a body, of a lens that lists them, or nothing where none is so
+  // bright and fast that it is more than an instant's.
+  std::vector<Piece> listed_trail(const Body& body);
 
  private:
   // A Moment is a sight of bodies at another instant.
@@ -82,6 +90,7 @@ class BodyTrails {
   Node node(const Body& body, int order, double frames, CameraMotion camera,
             const std::optional<double>& emitted = {});
   Node node_within(const Body& body, int order, double frames, CameraMotion camera);
+  double way_of(const Body& body, double r);
   std::optional<Passage> passage_of(const Body& body, int order);
   std::optional<Window> passage_window_of(const Body& body, int order, const BodyImage& image);
   std::optional<Window> open_window_of(const Body& body, int order);

@@ -36,6 +36,16 @@ class BodyPainter {
     return !left_.empty() && finder_.append_image(star, left_[0], drawn.light);
   }
 
+  // Likewise of all images together, where they are a trail.
+  bool paint_all(const Body& body, BodyImages& drawn) {
+    left_.clear(), tints_.clear();
+    const std::vector<BodyTrails::Piece> trail = trails_.listed_trail(body);
+    for (const BodyTrails::Piece& piece : trail)
+      take(piece.image, piece.psi, piece.tint, piece.solid_angle, drawn);
+    if (!left_.empty()) finder_.append_trail(BodySight::star_of(body), left_, drawn.light, tints_);
+    return !trail.empty();
+  }
+
  private:
   // The disc hides each piece by itself, since the edge of its image may cross that of the body.
   void take(SkyImage piece, double psi, const WorkingRgb& tint, double solid_angle,
@@ -87,6 +97,13 @@ std::vector<BodyImages> images_of_bodies(const FrameScene& scene, std::span<cons
   if (!sight.sees()) return images;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const Body& body = bodies[k];
+    if (const auto nearest = sight.lists_images() ? sight.image(body, 0) : std::nullopt) {
+      BodyImages drawn{k, sight.far(body, nearest->traced), {}, {}};
+      if (painter.paint_all(body, drawn)) {
+        images.push_back(std::move(drawn));
+        continue;
+      }
+    }
     // Higher orders become ever fainter, so the search ends after a few faint ones in succession.
     int faint = 0;
     for (int order = sight.first_order(body);

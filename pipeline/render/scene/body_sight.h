@@ -30,6 +30,8 @@ class BodySight {
 
   // Says whether bodies, which are in region I, are seen at all.
   bool sees() const;
+  // Says whether the lens finds all images of a body together (Lens::lists_bodies).
+  bool lists_images() const { return lens_->lists_bodies(); }
 
   // At most kMostOrders orders are looked for, and kFaintOrders in succession that are too faint
   // end the search.  An image is fainter by e^(-2 pi) than the one two orders before it, which is
