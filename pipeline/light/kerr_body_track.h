@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <map>
+#include <unordered_map>
 #include <optional>
 
 #include "pipeline/light/kerr_pass.h"
@@ -28,7 +28,7 @@ class KerrBodyTrack {
 
   const KerrBodyRays& rays_;
   double step_;  // M; what falls in is fast
-  std::map<long long, std::optional<Spot>> nodes_;
+  std::unordered_map<long long, std::optional<Spot>> nodes_;
 };
 
 }  // namespace domefall
