@@ -39,26 +39,6 @@ void add_settings(Digest& digest, const FrameSettings::Sky& sky) {
       .add(sky.soft_limit ? "soft" : "hard");
 }
 
-void add_bodies(Digest& digest, const Show& show) {
-  for (const Body& body : show.bodies) {
-    digest.add("body").add(kBodiesVersion);
-    for (const V3d& v : {body.normal.v, body.node.v})
-      for (const double x : {v.x, v.y, v.z}) digest.add(rounded_for_key(x));
-    // The start of a free motion determines all of it.
-    const OrbitPoint start = point_at(body.trajectory, body.start);
-    digest.add(static_cast<int>(body.trajectory.index())).add(static_cast<int>(start.tetrad));
-    for (const double x : {start.r, start.celerity.x, start.celerity.z})
-      digest.add(rounded_for_key(x));
-    if (show.spacetime.is<SpinningHole>())
-      for (const double x : {start.theta, start.celerity.y}) digest.add(rounded_for_key(x));
-    for (const double x :
-         {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
-          body.temperature, body.magnitude, body.radius, body.granulation})
-      digest.add(x);
-    add_surface(digest, body);
-  }
-}
-
 void add_output(Digest& digest, const Show& show) {
   // A show that changes from halves to floats, or back, makes all of its frames again.
   if (RenderedFrame::keeps_floats(show)) digest.add("float");
@@ -111,6 +91,26 @@ void FrameKeys::add_surface(Digest& digest, const Body& body) {
   if (const auto* lamp = std::get_if<std::shared_ptr<const Body>>(&*body.lit_from))
     digest.add(static_cast<double>(std::ranges::find(show_.bodies, (*lamp)->name, &Body::name) -
                                    show_.bodies.begin()));
+}
+
+void FrameKeys::add_bodies(Digest& digest) {
+  for (const Body& body : show_.bodies) {
+    digest.add("body").add(kBodiesVersion);
+    for (const V3d& v : {body.normal.v, body.node.v})
+      for (const double x : {v.x, v.y, v.z}) digest.add(rounded_for_key(x));
+    // The start of a free motion determines all of it.
+    const OrbitPoint start = point_at(body.trajectory, body.start);
+    digest.add(static_cast<int>(body.trajectory.index())).add(static_cast<int>(start.tetrad));
+    for (const double x : {start.r, start.celerity.x, start.celerity.z})
+      digest.add(rounded_for_key(x));
+    if (show_.spacetime.is<SpinningHole>())
+      for (const double x : {start.theta, start.celerity.y}) digest.add(rounded_for_key(x));
+    for (const double x :
+         {body.backward ? -1.0 : 1.0, body.null_time, body.shines_before ? 1.0 : 0.0, body.azimuth,
+          body.temperature, body.magnitude, body.radius, body.granulation})
+      digest.add(x);
+    add_surface(digest, body);
+  }
 }
 
 void FrameKeys::add_sky(Digest& digest, const RegionSky& sky) {
@@ -169,7 +169,7 @@ FrameKeys::FrameKeys(const Show& show, std::string grade) : show_(show), grade_(
   if (show.glare.share > 0)
     common.add("glare").add(kGlareVersion).add(show.glare.share).add(show.glare.sigma);
   if (show.star_epoch != kCatalogueEpoch) common.add("epoch").add(show.star_epoch);
-  add_bodies(common, show);
+  add_bodies(common);
   add_output(common, show);
   common_ = common.hex();
   Digest three;

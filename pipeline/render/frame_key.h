@@ -44,6 +44,7 @@ class FrameKeys {
   void stamp(const std::filesystem::path& file);
   void add_background(Digest& digest, const SkyBackground& background);
   void add_surface(Digest& digest, const Body& body);
+  void add_bodies(Digest& digest);
   void add_sky(Digest& digest, const RegionSky& sky);
   void add_pattern_files(Digest& digest);
   void add_segments();
