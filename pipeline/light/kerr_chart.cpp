@@ -82,12 +82,25 @@ KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
       nodes_[grid_.node(row, column)] = {there.x, there.y, there.z, 0};
     }
   });
-  errors_.reserve(grid_.nodes());
+  std::vector<float> middles;
+  middles.reserve(grid_.nodes());
   for (int row = 0; row < rows(); ++row)
     for (int column = 0; column < kColumns; ++column)
-      errors_.push_back(static_cast<float>((value_of<kPoints>(row + 0.5, column + 0.5).sky -
+      middles.push_back(static_cast<float>((value_of<kPoints>(row + 0.5, column + 0.5).sky -
                                             value_of<kPoints - 2>(row + 0.5, column + 0.5).sky)
                                                .length()));
+  // In the middle of a cell both may happen to agree, so that those around it count, too.
+  const auto around = [&](int row, int column) {
+    float most = 0;
+    for (int i = std::max(row - 1, 0); i <= std::min(row + 1, rows() - 1); ++i)
+      for (int j = column - 1; j <= column + 1; ++j)
+        most = std::max(
+            most, middles[static_cast<std::size_t>(i * kColumns + (j + kColumns) % kColumns)]);
+    return most;
+  };
+  errors_.reserve(middles.size());
+  for (int row = 0; row < rows(); ++row)
+    for (int column = 0; column < kColumns; ++column) errors_.push_back(around(row, column));
 }
 
 template <std::size_t kCount>

@@ -53,8 +53,8 @@ class KerrChart {
     V3d sky, by_row, by_column;
   };
   Value value(double row, double column) const;
-  // Returns by how much polynomials of six and of eight nodes differ in the middle of its cell (radians),
-  // which is more than the chart's error there.
+  // Returns by how much polynomials of six and of eight nodes differ (radians), at most, in the middles of
+  // its cell and of those around it, which is more than the chart's error there.
   double error(double row, double column) const;
 
   double frequency_ratio(double delta, double eta) const { return shift_(delta, eta); }

@@ -15,7 +15,7 @@ constexpr int kRings = 64, kSectors = 128;
 constexpr double kFaintest = 3e-6;
 // So are those whose places are not known to so many radians: the crowded images next to the flat side
 // of a hole that spins nearly as fast as it can.
-constexpr double kLost = 1e-2;
+constexpr double kLost = 0.1;
 // Where they are not known to kRough, exact rays find the images that have more than kBright of their
 // star's light, and where not to kDoubtful, they tell whether there is a fainter one at all.
 constexpr double kRough = 3e-5, kBright = 1e-2, kDoubtful = 1e-3;
