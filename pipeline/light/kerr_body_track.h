@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <unordered_map>
 #include <optional>
+#include <unordered_map>
 
 #include "pipeline/light/kerr_pass.h"
 
