@@ -1,19 +1,18 @@
-// Charts of the skies near a hole that spins, the lens that they make, and images of points.
+// Charts of the skies near a hole that spins, and the lens that they make.
 #include "pipeline/light/kerr_lens.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
 
-#include "pipeline/light/kerr_points.h"
 #include "pipeline/light/kerr_request.h"
 #include "pipeline/light/lens_store.h"
+#include "tests/pipeline/light/spin_places.h"
 #include "tests/sanitized.h"
 
 namespace domefall {
@@ -21,41 +20,11 @@ namespace {
 
 using std::numbers::pi;
 
-struct SpinPlace {
-  double spin, charge, r, theta;
-  bool third = false;
-
-  KerrPlace at() const { return {{spin, charge}, r, theta}; }
-  KerrEdge edge() const { return third ? KerrEdge::kRegionThree : KerrEdge::kSilhouette; }
-
-  // An observer there, about an axis that points to z.
-  ObserverState observer() const {
-    ObserverState o;
-    o.spacetime = SpinningHole{1, {spin, charge}};
-    o.r = r;
-    o.region = r > o.spacetime.horizon() ? Region::kI : Region::kII;
-    const double s = std::sin(theta), c = std::cos(theta);
-    o.sky_from_tetrad = from_columns({s, 0, c}, {c, 0, -s}, {0, 1, 0});
-    return o;
-  }
-};
-
-std::vector<SpinPlace> places() {
-  return {{0.9, 0, 10, 1.2}, {0.9, 0, 1.6, 1.2}, {0.5, 0, 6, 1e-3},      {0.9, 0, 6, 0},
-          {0.5, 0.7, 20, 2}, {0.9, 0, 1, 1.2},   {0.9, 0, 1, 1.2, true}, {0.998, 0, 6, pi / 2}};
-}
-
-// Direction of view that looks opposite to the photon.
-V3d view(double delta, double eta) {
-  const double s = std::sin(delta);
-  return {-std::cos(delta), -s * std::cos(eta), -s * std::sin(eta)};
-}
-
 // Places and derivatives of the chart are those of exact rays.
 TEST(KerrChart, IsTheExactRays) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(0, 1);
-  for (const SpinPlace& place : places()) {
+  for (const SpinPlace& place : spin_places()) {
     if (kSanitized && place.charge == 0) continue;
     const KerrChart chart(place.at(), place.edge());
     int compared = 0;
@@ -86,7 +55,7 @@ TEST(KerrChart, IsTheExactRays) {
 TEST(KerrLens, HasTheSameRaysInBatchesAndAlone) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
-  for (const SpinPlace& place : {places()[0], places()[5]}) {
+  for (const SpinPlace& place : {spin_places()[0], spin_places()[5]}) {
     const auto lens = LensStore().lens(place.observer(), {{true, true, false, false}});
     DirectionBatch n{};
     for (std::size_t k = 0; k < DirectionBatch::kSize; ++k) {
@@ -150,176 +119,10 @@ TEST(KerrLens, OfLittleSpinIsThatOfNone) {
   }
 }
 
-// Whatever direction light comes from, its image is found there.
-TEST(KerrPoints, AreSeenWhereTheirLightComesFrom) {
-  std::mt19937 random(8);
-  std::uniform_real_distribution<double> part(0, 1);
-  for (const SpinPlace& place : places()) {
-    if (place.spin > 0.99 || (kSanitized && place.charge == 0)) continue;
-    const KerrChart chart(place.at(), place.edge());
-    const double s = std::sin(place.theta), c = std::cos(place.theta);
-    const KerrPoints points(chart, s, c);
-    int found = 0, missed = 0;
-    std::vector<double> off;
-    for (int k = 0; k < tries(100, 40); ++k) {
-      const double eta = 2 * pi * part(random), from = chart.edge(eta).delta;
-      const double away = k % 2 == 0 ? part(random) : std::exp(-8 * part(random));
-      const double delta = from + away * (chart.end() - from);
-      const TracedKerr ray = trace_kerr(place.at(), {delta, eta});
-      if (ray.origin == KerrOrigin::kPastHorizon) continue;
-      const V3d& sky = ray.sky;
-      const V3d source(sky.x * s + sky.z * c, sky.x * c - sky.z * s, sky.y);
-      std::vector<SkyImage> images;
-      points.list_images(source, 0, 0, images);
-      const V3d n = view(delta, eta);
-      const auto image = std::ranges::find_if(images, [&](const SkyImage& one) {
-        return (one.direction.v - n).length() < 1e-5 + 1e-4 * ray.amplification;
-      });
-      ++(image == images.end() ? missed : found);
-      if (image == images.end() || ray.amplification > 30) continue;
-      EXPECT_NEAR(image->amplification / ray.amplification, 1, place.third ? 2e-2 : 5e-3)
-          << place.spin << " " << delta << " " << eta;
-      EXPECT_NEAR(image->frequency_ratio * std::abs(ray.energy), 1, 1e-4);
-      // All other images are right, too.
-      for (const SkyImage& one : images) {
-        const V3d& m = one.direction.v;
-        const TracedKerr back = trace_kerr_without_area(
-            place.at(), {std::atan2(std::hypot(m.y, m.z), -m.x), std::atan2(-m.z, -m.y)});
-        off.push_back((back.sky - sky).length());
-      }
-    }
-    EXPECT_GT(found, tries(75, 25));
-    std::sort(off.begin(), off.end());
-    EXPECT_LT(off[off.size() * 97 / 100], 1e-5)
-        << place.spin << " " << place.r << " " << place.third;
-    EXPECT_LT(off.back(), 1e-2);
-    // Between the horizons images are missed where the chart is rough, next to the edge.
-    EXPECT_LE(missed, place.r > 1 ? 1 : found / 10)
-        << place.spin << " " << place.r << " " << place.third;
-  }
-}
-
-// Against brute force: a net of exact rays over the view, each triangle of which holds an image of what is
-// within its place on the sky, found to the last digit by Newton's method.
-class ImagesByForce {
- public:
-  explicit ImagesByForce(const KerrPlace& at) : at_(at) {
-    for (int row = 0; row <= kRows; ++row)
-      for (int column = 0; column <= kColumns; ++column)
-        net_.push_back(trace_kerr_without_area(at_, direction(row, column)).sky);
-  }
-
-  // Returns the sum of the images' amplifications.
-  double light(const V3d& star) const {
-    double sum = 0;
-    std::vector<V3d> found;
-    for (int row = 0; row < kRows; ++row)
-      for (int column = 0; column < kColumns; ++column) {
-        const V3d &a = net(row, column), &b = net(row + 1, column), &c = net(row, column + 1),
-                  &d = net(row + 1, column + 1);
-        const double reach = std::max((a - d).length2(), (b - c).length2());
-        if ((a - star).length2() > 4 * reach || reach > 1) continue;
-        if (holds(a, b, c, star) || holds(b, d, c, star)) sum += image(row, column, star, found);
-      }
-    return sum;
-  }
-
- private:
-  static constexpr int kRows = 260, kColumns = 520;
-  static constexpr double kLeast = -13;
-
-  KerrDirection direction(double row, double column) const {
-    const double eta = 2 * pi * column / kColumns;
-    const auto from = static_cast<double>(critical_ray(at_, eta, KerrEdge::kSilhouette).delta);
-    return {0, eta, KerrEdge::kSilhouette, std::exp(kLeast * (1 - row / kRows)) * (pi - from)};
-  }
-  const V3d& net(int row, int column) const {
-    return net_[static_cast<std::size_t>(row * (kColumns + 1) + column)];
-  }
-  static bool holds(const V3d& a, const V3d& b, const V3d& c, const V3d& p) {
-    const double x = a.cross(b).dot(p), y = b.cross(c).dot(p), z = c.cross(a).dot(p);
-    return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
-  }
-  double image(int row, int column, const V3d& star, std::vector<V3d>& found) const {
-    double delta = static_cast<double>(kerr_delta(at_, direction(row + 0.5, column + 0.5)));
-    double eta = 2 * pi * (column + 0.5) / kColumns;
-    for (int i = 0; i < 30; ++i) {
-      const TracedKerr ray = trace_kerr(at_, {delta, eta});
-      if (ray.origin == KerrOrigin::kPastHorizon) return 0;
-      const V3d off = star - ray.sky, normal = ray.by_delta.cross(ray.across);
-      const double det = normal.dot(ray.sky);
-      const double by_delta = off.cross(ray.across).dot(ray.sky) / det;
-      const double by_eta = ray.by_delta.cross(off).dot(ray.sky) / det / std::sin(delta);
-      if (std::hypot(by_delta, by_eta) < 1e-11) {
-        const V3d n = view(delta, eta);
-        for (const V3d& other : found)
-          if ((other - n).length() < 1e-9) return 0;
-        found.push_back(n);
-        return ray.amplification;
-      }
-      const double slow = std::min(1.0, 0.1 / std::hypot(by_delta, by_eta));
-      delta += slow * by_delta, eta += slow * by_eta;
-      if (!(delta > 0 && delta < pi)) return 0;
-    }
-    return 0;
-  }
-
-  KerrPlace at_;
-  std::vector<V3d> net_;
-};
-
-TEST(KerrPoints, HaveTheLightOfBruteForce) {
-  std::mt19937 random(11);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> part(0, 1);
-  int stars = 0, bright = 0;
-  for (const SpinPlace& place : {places()[0], places()[4], places()[7]}) {
-    const ImagesByForce force(place.at());
-    const KerrChart chart(place.at(), KerrEdge::kSilhouette);
-    const double s = std::sin(place.theta), c = std::cos(place.theta);
-    const KerrPoints points(chart, s, c);
-    for (int k = 0; k < tries(66, 6); ++k) {
-      V3d sky = V3d(normal(random), normal(random), normal(random)).normalized();
-      if (k % 2 == 0) {
-        // Next to a caustic, where some image is bright.
-        for (int i = 0; i < 100000; ++i) {
-          const double eta = 2 * pi * part(random), away = std::exp(-3 * part(random));
-          const double from = chart.edge(eta).delta;
-          const TracedKerr ray = trace_kerr(place.at(), {from + away * (pi - from), eta});
-          sky = ray.sky;
-          if (ray.amplification > 5 && ray.amplification < 100) break;
-        }
-      }
-      const double light = force.light(sky);
-      std::vector<SkyImage> images;
-      points.list_images(V3d(sky.x * s + sky.z * c, sky.x * c - sky.z * s, sky.y), 0, 0, images);
-      double sum = 0;
-      for (const SkyImage& image : images) {
-        sum += image.amplification;
-        // Each is one of its own, and the exact ray leads to the star, or close by if it is faint.
-        const V3d& n = image.direction.v;
-        const TracedKerr ray = trace_kerr(
-            place.at(), {std::atan2(std::hypot(n.y, n.z), -n.x), std::atan2(-n.z, -n.y)});
-        EXPECT_LT((ray.sky - sky).length(), image.amplification > 1e-2 ? 1e-4 : 0.05)
-            << place.spin << " " << place.r << " star " << k;
-        EXPECT_EQ(std::ranges::count_if(images,
-                                        [&](const SkyImage& other) {
-                                          return (other.direction.v - n).length() < 1e-9;
-                                        }),
-                  1);
-      }
-      ++stars, bright += light > 10;
-      EXPECT_NEAR(sum / light, 1, 1e-3)
-          << place.spin << " " << place.r << " star " << k << " light " << light;
-    }
-  }
-  std::cout << stars << " stars, " << bright << " of them brighter than tenfold\n";
-}
-
 TEST(KerrLens, AimsAtThePrimaryImage) {
   std::mt19937 random(9);
   std::normal_distribution<double> normal;
-  for (const SpinPlace& place : {places()[0], places()[2], places()[4]}) {
+  for (const SpinPlace& place : {spin_places()[0], spin_places()[2], spin_places()[4]}) {
     const ObserverState o = place.observer();
     const auto lens = LensStore().lens(o, {{false, false, false, false}});
     const auto known = LensStore().lens(o, {{true, false, false, false}});
@@ -354,7 +157,7 @@ TEST(KerrChart, HoldsASkyThatIsSmall) {
 // On the ring the image of the sky is turned over, and nowhere farther from the hole.
 TEST(KerrLens, HasItsRingWhereImagesTurnOver) {
   for (const SpinPlace& place :
-       {places()[0], places()[1], places()[4], SpinPlace{0.99, 0, 20, pi / 2}}) {
+       {spin_places()[0], spin_places()[1], spin_places()[4], SpinPlace{0.99, 0, 20, pi / 2}}) {
     const auto lens = LensStore().lens(place.observer(), {{true, false, false, false}});
     const auto turned_over = [&](double delta, double eta) {
       const TracedKerr ray = trace_kerr(place.at(), {delta, eta});
