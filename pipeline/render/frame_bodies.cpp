@@ -97,7 +97,8 @@ std::vector<BodyImages> images_of_bodies(const FrameScene& scene, std::span<cons
   if (!sight.sees()) return images;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const Body& body = bodies[k];
-    if (const auto nearest = sight.lists_images() ? sight.image(body, 0) : std::nullopt) {
+    const bool together = sight.lists_images() && sight.first_order(body) == 0;
+    if (const auto nearest = together ? sight.image(body, 0) : std::nullopt) {
       BodyImages drawn{k, sight.far(body, nearest->traced), {}, {}};
       if (painter.paint_all(body, drawn)) {
         images.push_back(std::move(drawn));
