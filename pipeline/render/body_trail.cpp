@@ -201,7 +201,7 @@ double BodyTrails::way_of(const Body& body, double r) {
 
 // The weights of a triangle add up to an even exposure from frame to frame.
 std::vector<BodyTrails::Piece> BodyTrails::listed_trail(const Body& body) {
-  constexpr double kBright = 10, kMostParts = 48;
+  constexpr double kBright = 10, kMostParts = 24;
   const BodyTimes& times = scene_.body_times;
   if (!times.at || scene_.effects.amplification == Amplification::kNone) return {};
   double fast = 0, r = 0;

@@ -15,6 +15,8 @@
 #include "pipeline/render/frame_mattes.h"
 #include "pipeline/render/stars/star_trail.h"
 #include "tests/pipeline/render/scenes.h"
+#include "tests/pipeline/show/show_file.h"
+#include "tests/sanitized.h"
 
 namespace domefall {
 namespace {
@@ -196,6 +198,35 @@ TEST(BodyTrails, AreInLayersAndMattes) {
     }
     EXPECT_GT(covered, 500u) << shutter;
   }
+}
+
+class SpinTrails : public ShowFile {};
+
+// A star passes through the cusp of a caustic about a spin, where images come and go: all of them together
+// are the mean over two frames.
+TEST_F(SpinTrails, HaveTheLightOfTwoFrames) {
+  if (kSanitized) GTEST_SKIP() << "takes minutes";
+  const Show show = read(
+      "frames_per_second: 12\nsize: [64, 64]\n"
+      "camera: {projection: rectilinear, fov_deg: 40, look_at: hole}\n"
+      "black_hole: {mass_solar: 4e6, spin: 0.9}\n"
+      "sky: {region_I: {background: black, stars: none}}\n"
+      "bodies: {star: {r: 12, magnitude: -4, azimuth_deg: 228}}\n"
+      "timeline: [{duration_s: 3, trajectory: {type: static, r: 30, rate_m_per_s: 14}}]\n");
+  const FrameState state = frame_state(show, 23);
+  const std::vector<StarImage> trail = images(show, state, body_times(show, state, 0));
+  constexpr int kHalf = 16;
+  double mean = 0;
+  for (int k = 1 - kHalf; k < kHalf; ++k) {
+    const double u = static_cast<double>(k) / kHalf;
+    FrameState then = state;
+    then.observer = observer_after(show, state, u, CameraMotion::kStays);
+    mean += (1 - std::abs(u)) / kHalf * light(images(show, then, {}));
+  }
+  EXPECT_GT(trail.size(), 100u);
+  EXPECT_GT(mean, 2 * light(images(show, state, {})));
+  // Both are sums over some tens of instants of light that has a peak.
+  EXPECT_NEAR(light(trail) / mean, 1, 0.03);
 }
 
 }  // namespace
