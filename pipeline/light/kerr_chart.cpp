@@ -60,20 +60,10 @@ V3d across(const V3d& v, const V3d& unit) { return v - unit * v.dot(unit); }
 
 }  // namespace
 
-KerrShift::KerrShift(const KerrPlace& at)
-    : sigma_(static_cast<double>(at.r * at.r + at.sigma())),
-      delta_(static_cast<double>(at.delta())),
-      side_(static_cast<double>(at.hole.spin * std::sin(at.theta)) * std::sqrt(sigma_)) {}
-
-double KerrShift::operator()(double delta, double eta) const {
-  const double s = std::sin(delta / 2), c = std::cos(delta / 2);
-  return sigma_ / std::abs(sigma_ * s * s + delta_ * c * c + 2 * side_ * std::sin(eta) * s * c);
-}
-
 KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
     : grid_(at, sky, sky == KerrEdge::kSilhouette ? pi : 0,
             at.hole.horizon_distance() < kFast ? kRowsOfFast : kRows, kColumns),
-      shift_(at) {
+      energy_(at) {
   constexpr int kGuard = KerrGrid::kGuard;
   nodes_.resize(grid_.nodes());
   tbb::parallel_for(-kGuard, rows() + kGuard + 1, [&](int row) {

@@ -4,23 +4,15 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "pipeline/light/kerr_grid.h"
 #include "pipeline/light/kerr_ray.h"
+#include "pipeline/light/kerr_view.h"
 
 namespace domefall {
-
-// A KerrShift gives the frequency seen of light from a direction, over that sent.
-class KerrShift {
- public:
-  explicit KerrShift(const KerrPlace& at);
-  double operator()(double delta, double eta) const;
-
- private:
-  double sigma_, delta_, side_;
-};
 
 class KerrChart {
  public:
@@ -57,7 +49,10 @@ class KerrChart {
   // its cell and of those around it, which is more than the chart's error there.
   double error(double row, double column) const;
 
-  double frequency_ratio(double delta, double eta) const { return shift_(delta, eta); }
+  // Returns the frequency seen of light from a direction, over that sent.
+  double frequency_ratio(double delta, double eta) const {
+    return 1 / std::abs(energy_(delta, eta));
+  }
 
   const KerrPlace& at() const { return grid_.at(); }
   KerrEdge sky() const { return grid_.kind(); }
@@ -68,7 +63,7 @@ class KerrChart {
   Place exact(double delta, double eta, const Edge& edge) const;
 
   KerrGrid grid_;
-  KerrShift shift_;
+  KerrEnergy energy_;
   std::vector<std::array<double, 4>> nodes_;  // unit vectors and a 0
   std::vector<float> errors_;
 };

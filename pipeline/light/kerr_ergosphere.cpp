@@ -83,7 +83,7 @@ std::vector<V3d> ergosphere_outline(const KerrPlace& at) {
   corners.reserve(kOutlineCorners);
   for (int k = 0; k < kOutlineCorners; ++k) {
     const double eta = -2 * pi * k / kOutlineCorners;
-    const auto edge = static_cast<double>(critical_ray(at, eta, KerrEdge::kSilhouette).delta);
+    const double edge = kerr_edge_delta(at, eta);
     const auto gives = [&](double depth) {
       return ergosphere.gives(edge + (pi - edge) * std::exp(-depth), eta);
     };

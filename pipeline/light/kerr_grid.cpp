@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/light/kerr_view.h"
 #include "pipeline/light/lagrange.h"
 
 namespace domefall {
@@ -16,8 +17,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 KerrEdgeCurve::KerrEdgeCurve(const KerrPlace& at, KerrEdge edge) {
   deltas_.reserve(kEdges);
-  for (int k = 0; k < kEdges; ++k)
-    deltas_.push_back(static_cast<double>(critical_ray(at, kTurn * k / kEdges, edge).delta));
+  for (int k = 0; k < kEdges; ++k) deltas_.push_back(kerr_edge_delta(at, kTurn * k / kEdges, edge));
 }
 
 KerrEdgeCurve::Point KerrEdgeCurve::at(double eta) const {

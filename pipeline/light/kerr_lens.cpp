@@ -92,9 +92,9 @@ struct KerrLens::Seen {
 };
 
 KerrLens::Seen KerrLens::seen(const V3d& n) const {
-  const double beside = std::hypot(n.y, n.z);
-  Seen seen{std::atan2(beside, -n.x), beside > 0 ? std::atan2(-n.z, -n.y) : 0};
-  const double sine = std::max(beside, 1e-3);
+  const KerrDirection towards = kerr_direction_of(n);
+  Seen seen{static_cast<double>(towards.delta), static_cast<double>(towards.eta)};
+  const double sine = std::max(std::hypot(n.y, n.z), 1e-3);
   for (const KerrChart* one : {charts_->own.get(), charts_->beyond.get()}) {
     if (!one) continue;
     const KerrChart::Edge edge = one->edge(seen.eta);
@@ -162,9 +162,8 @@ ViewRay KerrLens::ray(const V3d& n) const {
 
 std::vector<SkyBorder> KerrLens::borders() const {
   const auto corners = [&](KerrEdge edge) {
-    return corners_of(kCorners, [&](double eta) {
-      return static_cast<double>(critical_ray(charts_->at, eta, edge).delta);
-    });
+    return corners_of(kCorners,
+                      [&](double eta) { return kerr_edge_delta(charts_->at, eta, edge); });
   };
   std::vector<SkyBorder> borders{{corners(KerrEdge::kSilhouette), false, SkyRegion::kI}};
   if (charts_->at.delta() < 0)
@@ -227,7 +226,6 @@ V3d KerrLens::primary_image(const V3d& source) const {
                   source.x * cosine_ - source.y * sine_);
   constexpr int kRings = 24, kAround = 24;
   double best = -2, delta = pi, eta = 0;
-  const auto trace = [&](double d, double e) { return trace_kerr(charts_->at, {d, e}); };
   for (int i = 0; i < kRings; ++i)
     for (int j = 0; j < kAround; ++j) {
       const double e = 2 * pi * j / kAround, d = pi * (i + 0.5) / kRings;
@@ -239,19 +237,14 @@ V3d KerrLens::primary_image(const V3d& source) const {
     }
   V3d n = kerr_view(delta, eta);
   for (int step = 0; step < 30; ++step) {
-    delta = std::atan2(std::hypot(n.y, n.z), -n.x), eta = std::atan2(-n.z, -n.y);
-    const TracedKerr ray = trace(delta, eta);
+    const KerrDirection towards = kerr_direction_of(n);
+    const TracedKerr ray = trace_kerr(charts_->at, towards);
     if (ray.origin != KerrOrigin::kOwn) break;
-    const V3d off = place - ray.sky * place.dot(ray.sky);
-    const V3d &d = ray.by_delta, &e = ray.across;
-    const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e), det = dd * ee - de * de;
-    if (!(det > 0)) break;
-    double x = (off.dot(d) * ee - off.dot(e) * de) / det,
-           y = (off.dot(e) * dd - off.dot(d) * de) / det;
-    const double length = std::hypot(x, y), most = 0.2;
-    if (length > most) x *= most / length, y *= most / length;
-    const ViewAxes view(delta, eta);
-    n = (n + view.by_delta * x + view.across * y).normalized();
+    const auto by = parts_along(place - ray.sky * place.dot(ray.sky), ray.by_delta, ray.across);
+    if (!by) break;
+    const double length = std::hypot((*by)[0], (*by)[1]), slow = std::min(1.0, 0.2 / length);
+    const ViewAxes view(static_cast<double>(towards.delta), static_cast<double>(towards.eta));
+    n = (n + (view.by_delta * (*by)[0] + view.across * (*by)[1]) * slow).normalized();
     if (length < 1e-15) break;
   }
   return n;

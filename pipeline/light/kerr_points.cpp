@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/light/kerr_view.h"
+
 namespace domefall {
 namespace {
 
@@ -123,12 +125,10 @@ bool KerrPoints::find(const V3d& place, const Cell& cell, Found& at) const {
   constexpr double kRim = 1e-7;  // images on the rim of a cell are found in both
   for (int step = 0; step < 16; ++step) {
     at.value = chart_.value(at.row, at.column);
-    const V3d off = place - at.value.sky * place.dot(at.value.sky);
-    const V3d &d = at.value.by_row, &e = at.value.by_column;
-    const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e), det = dd * ee - de * de;
-    if (!(det > 0)) return false;
-    const double by_row = (off.dot(d) * ee - off.dot(e) * de) / det,
-                 by_column = (off.dot(e) * dd - off.dot(d) * de) / det;
+    const auto by = parts_along(place - at.value.sky * place.dot(at.value.sky), at.value.by_row,
+                                at.value.by_column);
+    if (!by) return false;
+    const auto [by_row, by_column] = *by;
     const double most = 0.3 * cell.size;
     at.row += std::clamp(by_row, -most, most), at.column += std::clamp(by_column, -most, most);
     const double out = std::max(std::abs(at.row - cell.row), std::abs(at.column - cell.column));
@@ -157,12 +157,9 @@ std::optional<TracedKerr> KerrPoints::meet(const V3d& place, KerrChart::Directio
   double way = n.delta - chart_.edge(n.eta).delta;
   for (int step = 0; step < kSteps; ++step) {
     const TracedKerr ray = trace_kerr(chart_.at(), {0, n.eta, chart_.sky(), way});
-    const V3d off = place - ray.sky * place.dot(ray.sky);
-    const V3d &d = ray.by_delta, &e = ray.across;
-    const double det = d.cross(e).dot(ray.sky);
-    const double by_delta = off.cross(e).dot(ray.sky) / det,
-                 by_eta = d.cross(off).dot(ray.sky) / det / std::sin(n.delta);
-    if (!std::isfinite(by_delta) || !std::isfinite(by_eta)) return std::nullopt;
+    const auto by = parts_along(place - ray.sky * place.dot(ray.sky), ray.by_delta, ray.across);
+    if (!by) return std::nullopt;
+    const double by_delta = (*by)[0], by_eta = (*by)[1] / std::sin(n.delta);
     const double before = chart_.edge(n.eta).delta, turned = std::clamp(by_eta, -0.05, 0.05);
     n.eta += turned;
     const double moved = by_delta - (chart_.edge(n.eta).delta - before),

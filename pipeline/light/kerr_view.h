@@ -1,7 +1,9 @@
 // Directions of view by delta and eta (kerr_start.h), as unit vectors along R, Theta and Phi.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "pipeline/light/kerr_start.h"
 #include "trajectories/directions.h"
@@ -17,23 +19,40 @@ inline KerrDirection kerr_direction_of(const V3d& view) {
   return {std::atan2(beside, -view.x), beside > 0 ? std::atan2(-view.z, -view.y) : 0};
 }
 
-inline double kerr_edge_delta(const KerrPlace& at, double eta) {
-  return static_cast<double>(critical_ray(at, eta, KerrEdge::kSilhouette).delta);
+inline double kerr_edge_delta(const KerrPlace& at, double eta,
+                              KerrEdge edge = KerrEdge::kSilhouette) {
+  return static_cast<double>(critical_ray(at, eta, edge).delta);
 }
+
+// A KerrEnergy gives E of light that is one in the tetrad's frame: what is sent, over what is seen.
+class KerrEnergy {
+ public:
+  explicit KerrEnergy(const KerrPlace& at)
+      : sigma_(static_cast<double>(at.r * at.r + at.sigma())),
+        delta_(static_cast<double>(at.delta())),
+        side_(static_cast<double>(at.hole.spin * std::sin(at.theta)) * std::sqrt(sigma_)) {}
+
+  double operator()(double delta, double eta) const {
+    const double s = std::sin(delta / 2), c = std::cos(delta / 2);
+    return (sigma_ * s * s + delta_ * c * c + 2 * side_ * std::sin(eta) * s * c) / sigma_;
+  }
+  double sigma() const { return sigma_; }  // r^2 + a^2 cos^2(theta)
+
+ private:
+  double sigma_, delta_, side_;
+};
 
 // E, sqrt K and L of light that is one in the tetrad's frame.
 struct KerrConstants {
   double energy, momentum, about_axis;
 
   KerrConstants(const KerrPlace& at, double delta, double eta) {
-    const auto r = static_cast<double>(at.r), a = static_cast<double>(at.hole.spin);
-    const double sine = std::sin(static_cast<double>(at.theta)),
-                 sigma = r * r + static_cast<double>(at.sigma());
-    const double s = std::sin(delta / 2), c = std::cos(delta / 2);
-    momentum = std::sqrt(sigma) * 2 * s * c;
-    const double y = momentum * sine * std::sin(eta);
-    energy = (sigma * s * s + static_cast<double>(at.delta()) * c * c + a * y) / sigma;
-    about_axis = y + a * energy * sine * sine;
+    const KerrEnergy energy_of(at);
+    energy = energy_of(delta, eta);
+    momentum = std::sqrt(energy_of.sigma()) * std::sin(delta);
+    const double sine = std::sin(static_cast<double>(at.theta));
+    about_axis =
+        sine * (momentum * std::sin(eta) + static_cast<double>(at.hole.spin) * energy * sine);
   }
   // Light that an observer in the hole gets from its other side does not come from region I.
   bool comes_from_region_one(const KerrPlace& at) const {
@@ -54,5 +73,13 @@ struct ViewAxes {
     across = {0, se, -ce};
   }
 };
+
+// Returns x and y of v = x a + y b, all in one plane, or nothing where a and b are parallel.
+inline std::optional<std::array<double, 2>> parts_along(const V3d& v, const V3d& a, const V3d& b) {
+  const V3d normal = a.cross(b);
+  const double square = normal.length2();
+  if (!(square > 0)) return std::nullopt;
+  return std::array{v.cross(b).dot(normal) / square, a.cross(v).dot(normal) / square};
+}
 
 }  // namespace domefall

@@ -54,15 +54,15 @@ std::optional<ShiftRange> range_near_spin(const SpinningHole& hole, const Observ
   const KerrPlace at = kerr_place(hole, o);
   const KerrEdge edge = sky == SkyRegion::kI ? KerrEdge::kSilhouette : KerrEdge::kRegionThree;
   const double end = sky == SkyRegion::kI ? std::numbers::pi : 0, gamma = gamma_of(o.celerity);
-  const KerrShift shift(at);
+  const KerrEnergy energy(at);
   ShiftRange range{HUGE_VAL, 0};
   for (int j = 0; j < kAround; ++j) {
     const double eta = 2 * std::numbers::pi * j / kAround;
-    const auto rim = static_cast<double>(critical_ray(at, eta, edge).delta);
+    const double rim = kerr_edge_delta(at, eta, edge);
     for (int i = 0; i <= kRows; ++i) {
-      const double delta = rim + (end - rim) * i / kRows, s = std::sin(delta);
-      const V3d n(-std::cos(delta), -s * std::cos(eta), -s * std::sin(eta));
-      const double ratio = shift(delta, eta) * (gamma + o.celerity.dot(n));
+      const double delta = rim + (end - rim) * i / kRows;
+      const double ratio =
+          (gamma + o.celerity.dot(kerr_view(delta, eta))) / std::abs(energy(delta, eta));
       range = {std::min(range.least, ratio), std::max(range.largest, ratio)};
     }
   }
