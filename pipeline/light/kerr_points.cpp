@@ -1,6 +1,7 @@
 #include "pipeline/light/kerr_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -21,6 +22,8 @@ constexpr double kLost = 0.1;
 // Where they are not known to kRough, exact rays find the images that have more than kBright of their
 // star's light, and where not to kDoubtful, they tell whether there is a fainter one at all.
 constexpr double kRough = 3e-5, kBright = 1e-2, kDoubtful = 1e-3;
+// There two cells may have an image on their rim as far apart as this part of a cell.
+constexpr double kRoughRim = 0.05;
 // Cells are halved down to the smallest where a caustic goes through them, or where they are not even to
 // this part of their size.
 constexpr double kUneven = 0.4, kSmallest = 0.3;
@@ -47,6 +50,7 @@ KerrPoints::KerrPoints(const KerrChart& chart, double sine, double cosine)
 void KerrPoints::add(double row, double column, double size) {
   const KerrChart::Value centre = chart_.value(row, column);
   Cell cell{row, column, size, 0, centre.sky, {}, {}, 0, 0, 0};
+  cell.rough = chart_.error(row, column) > kRough;
   const V3d &d = centre.by_row, &e = centre.by_column;
   const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e), det = dd * ee - de * de;
   if (!(det > 0)) return;
@@ -122,7 +126,8 @@ void KerrPoints::set_box(Cell& cell) const {
 
 // Newton's method from one place of a cell.  Returns whether it comes to an image in the cell.
 bool KerrPoints::find(const V3d& place, const Cell& cell, Found& at) const {
-  constexpr double kRim = 1e-7;  // images on the rim of a cell are found in both
+  // Images on the rim of a cell are found in both.
+  const double rim = cell.rough ? kRoughRim : 1e-7;
   for (int step = 0; step < 16; ++step) {
     at.value = chart_.value(at.row, at.column);
     const auto by = parts_along(place - at.value.sky * place.dot(at.value.sky), at.value.by_row,
@@ -135,7 +140,7 @@ bool KerrPoints::find(const V3d& place, const Cell& cell, Found& at) const {
     if (out > cell.size) return false;
     // The next step would be its square.
     if (std::abs(by_row) < 1e-5 && std::abs(by_column) < 1e-5)
-      return out < 0.5 * cell.size + kRim && place.dot(at.value.sky) > 0;
+      return out < 0.5 * cell.size + rim && place.dot(at.value.sky) > 0;
   }
   return false;
 }
@@ -177,12 +182,21 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
   const V3d place(source.x * sine_ + source.y * cosine_, source.z,
                   source.x * cosine_ - source.y * sine_);
   const std::size_t begin = images.size();
+  std::vector<std::array<double, 2>> rough;  // rows and columns of images in rough cells
   const auto append = [&](const Found& at) {
     KerrChart::Direction n = chart_.direction(at.row, at.column);
     double view = std::abs(n.by_row) * std::sin(n.delta) * 2 * pi / chart_.columns();
     double seen = at.value.by_row.cross(at.value.by_column).length();
     std::optional<TracedKerr> exact;
     const double error = chart_.error(at.row, at.column);
+    if (error > kRough) {
+      const auto same = [&](const std::array<double, 2>& other) {
+        const double on = std::remainder(other[1] - at.column, chart_.columns());
+        return std::max(std::abs(other[0] - at.row), std::abs(on)) < 2 * kRoughRim;
+      };
+      if (std::ranges::any_of(rough, same)) return;
+      rough.push_back({at.row, at.column});
+    }
     if (error > kDoubtful && !is_there(place, n)) return;
     if (error > kRough && view > kBright * seen && !(exact = meet(place, n))) return;
     const double s = std::sin(n.delta);

@@ -34,6 +34,7 @@ class KerrPoints : public SkyPoints {
     float off_row, off_column;      // how far from there
     float radius;                   // of a cap that holds it, as a chord
     bool folded = false;            // whether a caustic goes through it
+    bool rough = false;             // whether polynomials are off there
   };
   struct Found {
     double row, column;

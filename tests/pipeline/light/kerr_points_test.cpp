@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -68,8 +69,49 @@ TEST(KerrPoints, AreSeenWhereTheirLightComesFrom) {
   }
 }
 
-// Against brute force: a net of exact rays over the view, each triangle of which holds an image of what is
-// within its place on the sky, found to the last digit by Newton's method.
+// A direction of view, and the part of a star's light that comes from there.
+struct FoundImage {
+  double way, eta, light;  // way: delta, from the silhouette's edge
+
+  FoundImage(const KerrPlace& at, const KerrDirection& towards, double amplification)
+      : way(static_cast<double>(towards.delta) -
+            kerr_edge_delta(at, static_cast<double>(towards.eta))),
+        eta(static_cast<double>(towards.eta)),
+        light(amplification) {}
+
+  // Images crowd towards the edge.
+  bool is(const FoundImage& other) const {
+    return std::abs(way - other.way) < 0.02 * way &&
+           std::abs(std::remainder(eta - other.eta, 2 * pi)) < 5e-3;
+  }
+};
+
+bool is_among(const std::vector<FoundImage>& images, const FoundImage& image) {
+  return std::ranges::any_of(images, [&](const FoundImage& other) { return image.is(other); });
+}
+
+// Returns the image of a star that Newton's method comes to by exact rays.
+std::optional<FoundImage> exact_image(const KerrPlace& at, const V3d& star, double delta,
+                                      double eta) {
+  for (int i = 0; i < 30; ++i) {
+    const TracedKerr ray = trace_kerr(at, {delta, eta});
+    if (ray.origin == KerrOrigin::kPastHorizon) return std::nullopt;
+    const V3d off = star - ray.sky, normal = ray.by_delta.cross(ray.across);
+    const double det = normal.dot(ray.sky);
+    const double by_delta = off.cross(ray.across).dot(ray.sky) / det;
+    const double by_eta = ray.by_delta.cross(off).dot(ray.sky) / det / std::sin(delta);
+    if (std::hypot(by_delta, by_eta) < 1e-11)
+      return FoundImage(at, {delta, eta}, ray.amplification);
+    const double slow = std::min(1.0, 0.1 / std::hypot(by_delta, by_eta));
+    delta += slow * by_delta, eta += slow * by_eta;
+    if (!(delta > 0 && delta < pi)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// Brute force: a net of exact rays over the view, each triangle of which holds an image of what is within
+// its place on the sky, found to the last digit by Newton's method.  Triangles that are too large to tell
+// may miss images next to the flat side of a hole that spins nearly as fast as it can.
 class ImagesByForce {
  public:
   explicit ImagesByForce(const KerrPlace& at) : at_(at) {
@@ -78,19 +120,21 @@ class ImagesByForce {
         net_.push_back(trace_kerr_without_area(at_, direction(row, column)).sky);
   }
 
-  // Returns the sum of the images' amplifications.
-  double light(const V3d& star) const {
-    double sum = 0;
-    std::vector<V3d> found;
+  std::vector<FoundImage> images(const V3d& star) const {
+    std::vector<FoundImage> images;
     for (int row = 0; row < kRows; ++row)
       for (int column = 0; column < kColumns; ++column) {
         const V3d &a = net(row, column), &b = net(row + 1, column), &c = net(row, column + 1),
                   &d = net(row + 1, column + 1);
         const double reach = std::max((a - d).length2(), (b - c).length2());
         if ((a - star).length2() > 4 * reach || reach > 1) continue;
-        if (holds(a, b, c, star) || holds(b, d, c, star)) sum += image(row, column, star, found);
+        if (!holds(a, b, c, star) && !holds(b, d, c, star)) continue;
+        const auto towards = direction(row + 0.5, column + 0.5);
+        const auto image = exact_image(at_, star, static_cast<double>(kerr_delta(at_, towards)),
+                                       static_cast<double>(towards.eta));
+        if (image && !is_among(images, *image)) images.push_back(*image);
       }
-    return sum;
+    return images;
   }
 
  private:
@@ -109,30 +153,6 @@ class ImagesByForce {
     const double x = a.cross(b).dot(p), y = b.cross(c).dot(p), z = c.cross(a).dot(p);
     return (x >= 0 && y >= 0 && z >= 0) || (x <= 0 && y <= 0 && z <= 0);
   }
-  double image(int row, int column, const V3d& star, std::vector<V3d>& found) const {
-    double delta = static_cast<double>(kerr_delta(at_, direction(row + 0.5, column + 0.5)));
-    double eta = 2 * pi * (column + 0.5) / kColumns;
-    for (int i = 0; i < 30; ++i) {
-      const TracedKerr ray = trace_kerr(at_, {delta, eta});
-      if (ray.origin == KerrOrigin::kPastHorizon) return 0;
-      const V3d off = star - ray.sky, normal = ray.by_delta.cross(ray.across);
-      const double det = normal.dot(ray.sky);
-      const double by_delta = off.cross(ray.across).dot(ray.sky) / det;
-      const double by_eta = ray.by_delta.cross(off).dot(ray.sky) / det / std::sin(delta);
-      if (std::hypot(by_delta, by_eta) < 1e-11) {
-        const V3d n = kerr_view(delta, eta);
-        for (const V3d& other : found)
-          if ((other - n).length() < 1e-9) return 0;
-        found.push_back(n);
-        return ray.amplification;
-      }
-      const double slow = std::min(1.0, 0.1 / std::hypot(by_delta, by_eta));
-      delta += slow * by_delta, eta += slow * by_eta;
-      if (!(delta > 0 && delta < pi)) return 0;
-    }
-    return 0;
-  }
-
   KerrPlace at_;
   std::vector<V3d> net_;
 };
@@ -142,6 +162,7 @@ TEST(KerrPoints, HaveTheLightOfBruteForce) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> part(0, 1);
   int stars = 0, bright = 0;
+  double worst = 0;
   for (const SpinPlace& place : {spin_places()[0], spin_places()[4], spin_places()[7]}) {
     const ImagesByForce force(place.at());
     const KerrChart chart(place.at(), KerrEdge::kSilhouette);
@@ -159,30 +180,33 @@ TEST(KerrPoints, HaveTheLightOfBruteForce) {
           if (ray.amplification > 5 && ray.amplification < 100) break;
         }
       }
-      const double light = force.light(sky);
-      std::vector<SkyImage> images;
-      points.list_images(V3d(sky.x * s + sky.z * c, sky.x * c - sky.z * s, sky.y), 0, 0, images);
-      double sum = 0;
-      for (const SkyImage& image : images) {
-        sum += image.amplification;
-        // Each is one of its own, and the exact ray leads to the star, or close by if it is faint.
-        const V3d& n = image.direction.v;
-        const TracedKerr ray = trace_kerr(
-            place.at(), {std::atan2(std::hypot(n.y, n.z), -n.x), std::atan2(-n.z, -n.y)});
-        EXPECT_LT((ray.sky - sky).length(), image.amplification > 1e-2 ? 1e-4 : 0.05)
-            << place.spin << " " << place.r << " star " << k;
-        EXPECT_EQ(std::ranges::count_if(images,
-                                        [&](const SkyImage& other) {
-                                          return (other.direction.v - n).length() < 1e-9;
-                                        }),
-                  1);
+      std::vector<SkyImage> listed;
+      points.list_images(V3d(sky.x * s + sky.z * c, sky.x * c - sky.z * s, sky.y), 0, 0, listed);
+      std::vector<FoundImage> images;
+      double light = 0, wrong = 0;
+      for (const SkyImage& image : listed) {
+        const KerrDirection towards = kerr_direction_of(image.direction.v);
+        const FoundImage ours(place.at(), towards, image.amplification);
+        const auto exact = exact_image(place.at(), sky, static_cast<double>(towards.delta),
+                                       static_cast<double>(towards.eta));
+        if (exact && !is_among(images, *exact)) {
+          light += exact->light, wrong += std::abs(ours.light - exact->light);
+          images.push_back(*exact);
+          EXPECT_TRUE(ours.light < 1e-2 || ours.is(*exact));
+        } else {
+          wrong += ours.light;  // no image, or one twice
+        }
       }
+      for (const FoundImage& image : force.images(sky))
+        if (!is_among(images, image)) light += image.light, wrong += image.light;
       ++stars, bright += light > 10;
-      EXPECT_NEAR(sum / light, 1, 1e-3)
+      EXPECT_LT(wrong / light, 1e-3)
           << place.spin << " " << place.r << " star " << k << " light " << light;
+      worst = std::max(worst, wrong / light);
     }
   }
-  std::cout << stars << " stars, " << bright << " of them brighter than tenfold\n";
+  std::cout << stars << " stars, " << bright << " of them brighter than tenfold, of worst light "
+            << worst << "\n";
 }
 
 }  // namespace
