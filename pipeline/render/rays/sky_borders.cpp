@@ -94,6 +94,16 @@ double BorderPolygon::chord_beyond(const V3d& n) const {
   return side * std::sqrt(least);
 }
 
+std::optional<ViewCircle> BorderPolygon::around() const {
+  V3d axis(0, 0, 0);
+  for (const V3d& corner : corners_) axis += corner;
+  axis.normalize();
+  double cosine = 1;
+  for (const V3d& corner : corners_) cosine = std::min(cosine, corner.dot(axis));
+  if (!(cosine > 0) || chord_beyond(axis) < 0) return std::nullopt;
+  return ViewCircle{axis, cosine, std::sqrt(1 - cosine * cosine)};
+}
+
 SkyBorders::SkyBorders(const ViewTracer& tracer, const Projection& projection) {
   const double least = kLeastRadius * largest_pixel_angle(projection);
   for (const SkyBorder& border : tracer.borders()) {
@@ -138,7 +148,7 @@ PerSky<double> SkyBorders::parts(const CameraDirection& n, double pixel_angle,
   return parts;
 }
 
-// All pixels without a sky lie inside the first circle, where the first sky ends.  If the circle
+// All pixels without a sky lie inside the first curve, where the first sky ends.  If a circle around it
 // encloses less than a hemisphere, the image of its rim bounds them.
 void SkyBorders::find_box(const Projection& projection) {
   constexpr int kPlaces = 96, kMargin = 3;
@@ -148,8 +158,10 @@ void SkyBorders::find_box(const Projection& projection) {
   // pole, is no closed curve.
   if (has_zenith(projection) && !traits_of(projection).is_dome) return;
   const auto* circle = std::get_if<ViewCircle>(&ends_.front());
-  if (!circle) return;
-  const ViewCircle& c = *circle;
+  const std::optional<ViewCircle> around =
+      circle ? *circle : std::get<BorderPolygon>(ends_.front()).around();
+  if (!around) return;
+  const ViewCircle& c = *around;
   // If the rim goes around -Z, the one direction without an image, what the rim encloses lies
   // outside its image.
   if (c.cosine < 0 || -c.axis.z > c.cosine - 0.05) return;

@@ -23,6 +23,8 @@ class BorderPolygon {
 
   // Returns the distance of a direction from it, as a chord.  It is positive on the left side.
   double chord_beyond(const V3d& n) const;
+  // Returns a circle around what it encloses, or nothing if that may be more than half of all directions.
+  std::optional<ViewCircle> around() const;
 
  private:
   static constexpr std::size_t kPart = 64;  // so many sides have a ball around them

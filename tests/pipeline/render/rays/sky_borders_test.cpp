@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/render/scenes.h"
+#include "tests/pipeline/show/show_file.h"
 
 namespace domefall {
 namespace {
@@ -114,27 +115,32 @@ TEST(SkyBorders, KnowWhatNeighbourhoodsSee) {
   EXPECT_GT(dark, kPlaces);
 }
 
+// Returns how many pixels see no sky.  The box must hold them all.
+int pixels_without_sky(const FrameState& view) {
+  const Projection& projection = view.projection;
+  const ViewTracer tracer(view, kAllSkies);
+  const auto box = SkyBorders(tracer, projection).box_without_sky();
+  int count = 0, outside = 0;
+  for (int row = 0; row < rows(projection); ++row)
+    for (int column = 0; column < columns(projection); ++column) {
+      const PixelPosition pixel{column + 1.0, row + 1.0};
+      if (!is_inside(projection, pixel) ||
+          tracer.trace(direction_at(projection, pixel)).sky != SkyRegion::kIV)
+        continue;
+      ++count;
+      outside += !box || column < box->first_column || column > box->last_column ||
+                 row < box->first_row || row > box->last_row;
+    }
+  EXPECT_EQ(outside, 0) << "r " << view.observer.r;
+  return count;
+}
+
 TEST(SkyBorders, BoxHoldsAllThatSeesNoSky) {
   for (const Projection& projection :
        {Projection(Domemaster{128}), Projection(Stereographic{160, 90, 1.5})})
-    for (const GivenVelocity& at : kObservers) {
-      const FrameState view = view_of(at, projection);
-      const ViewTracer tracer(view, kAllSkies);
-      const SkyBorders borders(tracer, view.projection);
-      const std::optional<PixelBox> box = borders.box_without_sky();
-      for (int row = 0; row < rows(projection); ++row)
-        for (int column = 0; column < columns(projection); ++column) {
-          const PixelPosition pixel{column + 1.0, row + 1.0};
-          if (!is_inside(projection, pixel)) continue;
-          if (tracer.trace(direction_at(projection, pixel)).sky != SkyRegion::kIV) continue;
-          ASSERT_TRUE(box && column >= box->first_column && column <= box->last_column &&
-                      row >= box->first_row && row <= box->last_row)
-              << "r " << at.r << ", " << column << " " << row;
-        }
-    }
+    for (const GivenVelocity& at : kObservers) pixels_without_sky(view_of(at, projection));
 }
 
-// Bright stars glow all around the silhouette, and not into it.
 // The hole stands where the projection has its antipode, or below the rim of a dome.
 TEST(SkyBorders, BoxHoldsAHoleBehindTheCamera) {
   for (const auto& [projection, attitude, elevation] :
@@ -145,22 +151,34 @@ TEST(SkyBorders, BoxHoldsAHoleBehindTheCamera) {
       Show show = show_of(StaticObserver{r}, projection);
       show.timeline[0].camera.attitude = attitude;
       show.timeline[0].camera.elevation = elevation * kDegree;
-      const FrameState state = frame_state(show, 0);
-      const ViewTracer tracer(state, WantedSkies{});
-      const auto box = SkyBorders(tracer, state.projection).box_without_sky();
-      for (int row = 0; row < rows(projection); ++row)
-        for (int column = 0; column < columns(projection); ++column) {
-          const PixelPosition pixel{column + 1.0, row + 1.0};
-          if (!is_inside(projection, pixel) ||
-              tracer.trace(direction_at(projection, pixel)).sky != SkyRegion::kIV)
-            continue;
-          ASSERT_TRUE(box && column >= box->first_column && column <= box->last_column &&
-                      row >= box->first_row && row <= box->last_row)
-              << "r " << r << ", " << column << " " << row;
-        }
+      pixels_without_sky(frame_state(show, 0));
     }
 }
 
+// About a spin the border is a polygon.
+class SpinBorders : public ShowFile {};
+TEST_F(SpinBorders, BoxHoldsAllThatSeesNoSky) {
+  for (const std::string look : {"hole", "outward"})
+    for (const std::string at : {"static, r: 9", "circular, r: 4", "static, r: 2.2"}) {
+      const Show show = read("size: 64\ncamera: {look_at: " + look + ", elevation_deg: 20}\n" +
+                             "black_hole: {mass_solar: 1e8, spin: 0.9}\n"
+                             "sky: {region_I: {background: black, stars: none}}\n"
+                             "timeline:\n  - {duration_s: 1, trajectory: {type: " +
+                             at + "}}\n");
+      const FrameState view = frame_state(show, 0);
+      const int dark = pixels_without_sky(view);
+      EXPECT_GT(dark, look == "hole" ? 25 : -1) << at;
+      const auto box = SkyBorders(ViewTracer(view, kAllSkies), view.projection).box_without_sky();
+      if (at == "static, r: 9" && look == "hole") {
+        ASSERT_TRUE(box);
+        // Hardly more than the silhouette is in it.
+        EXPECT_LT((box->last_column - box->first_column) * (box->last_row - box->first_row),
+                  4 * dark);
+      }
+    }
+}
+
+// Bright stars glow all around the silhouette, and not into it.
 TEST(SkyBorders, EndTheBlobsOfStars) {
   Show show = show_of(StaticObserver{8}, Domemaster{256});
   show.sky[SkyRegion::kI].stars = StarField{kTestAssets + "stars_to_9.stars", 6.5};
