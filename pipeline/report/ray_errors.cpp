@@ -317,11 +317,11 @@ RayErrorRow measure_class(const RayClass& of, const std::vector<RayGroup>& group
 std::vector<RayErrorRow> measure_rays(bool quick) {
   std::vector<RayErrorRow> rows;
   for (const RayClass& of : ray_classes()) {
-    // About a spin the truth of a ray takes 20 ms, and the chart of a place half a second.
+    // About a spin the truth of a ray takes 20 ms, its steps up to 40, and the chart of a place half a second.
     const bool few = of.kind == RayKind::kSpin;
-    const int radii = few && quick ? 2 : quick ? 6 : 24;
-    // Of 960 rays in a class 9 may exceed the error of 99 of 100.
-    const int per_radius = quick ? 8 : few ? 20 : 40, repeats = quick || few ? 1 : 3;
+    const int radii = few ? (quick ? 2 : 12) : quick ? 6 : 24;
+    // Of 960 rays in a class 9 may exceed the error of 99 of 100, and one of 120.
+    const int per_radius = quick ? 8 : few ? 10 : 40, repeats = quick || few ? 1 : 3;
     const std::vector<RayGroup> groups = sample_rays(of, radii, per_radius);
     for (const RayMethod& method : compared_methods(of.kind, quick))
       for (const double setting : method.settings)
