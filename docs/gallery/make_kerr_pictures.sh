@@ -76,3 +76,13 @@ for a in 0 05 08 095 0999; do
 done
 oiiotool "${pictures[@]}" --mosaic 5x1 --ch R,G,B --resize 1500x300 --compression jpeg:84 \
   -o docs/gallery/kerr_silhouettes.jpg
+
+# Twelve frames of the production.
+frames=(180 600 960 1350 1800 2250 2700 3150 3600 4350 5100 5310)
+"$domefall" render shows/the_dragged_sky.yaml --size 1k --frames "$(IFS=,; echo "${frames[*]}")" --out "$out/dragged"
+pictures=()
+for k in "${frames[@]}"; do
+  pictures+=("$(printf '%s/dragged/graded/the_dragged_sky_%05d.png' "$out" "$k")")
+done
+oiiotool "${pictures[@]}" --mosaic 4x3 --ch R,G,B --resize 1600x1200 --compression jpeg:80 \
+  -o docs/gallery/the_dragged_sky_sheet.jpg
