@@ -202,6 +202,7 @@ std::optional<DoubleDouble> KerrRadius::first_after(DoubleDouble l,
 
 std::optional<DoubleDouble> KerrRadius::passage(double r, bool outward,
                                                 const DoubleDouble& after_l) const {
+  constexpr double kRounding = 1e-12;
   std::optional<DoubleDouble> found;
   for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
     const Node &from = nodes_[k], &to = nodes_[k + 1];
@@ -214,9 +215,14 @@ std::optional<DoubleDouble> KerrRadius::passage(double r, bool outward,
     for (const auto& [a, b] : {std::pair(0.0, turn), std::pair(turn, end)}) {
       const double low = s.radius(a), high = s.radius(b);
       if (!(b > a) || (high > low) != outward) continue;
-      if ((low > r) == (high > r) && low != r && high != r) continue;
-      const auto l = first_after(
-          from.l + zero_between([&s, r](double x) { return s.radius(x) - r; }, a, b), after_l);
+      // An end of an orbit is known to rounding.
+      const double passed = std::clamp(r, std::min(low, high), std::max(low, high));
+      if (!(std::abs(passed - r) <= kRounding * r)) continue;
+      const double at = passed == low ? a
+                        : passed == high
+                            ? b
+                            : zero_between([&s, r](double x) { return s.radius(x) - r; }, a, b);
+      const auto l = first_after(from.l + at, after_l);
       if (l && (!found || *l < *found)) found = l;
     }
   }

@@ -185,13 +185,13 @@ typename KerrPath<T>::Node KerrPath<T>::node(double y) const {
   T zeta;  // rho w
   T by_y;
   if (shape_ == Shape::kComplex) {
-    const double sinh = std::sinh(direction_ * y), cosh = std::cosh(y);
+    const double sinh = std::sinh(direction_ * y), cosh = std::sqrt(1 + sinh * sinh);
     out.w = w1_ - gap_ * sinh;
     zeta = 1 - x_ * out.w;
     by_y = gap_ * (direction_ * cosh);
     out.mino = 1;
   } else {
-    const double sinh = std::sinh(y), cosh = std::cosh(y);
+    const double sinh = std::sinh(y), cosh = std::sqrt(1 + sinh * sinh);
     const double sign = shape_ == Shape::kOuter ? 1 : -1;
     out.w = w1_ - gap_ * (sign * sinh * sinh);
     zeta = rho1_ * out.w + gap_ * (sign * sinh * sinh) / w1_;
@@ -289,7 +289,8 @@ void KerrPath<T>::move_to(double target, double& y, double& mino) const {
     const double step = (target - mino) / place(y).by_y;
     const double next = std::clamp(y + step, first(), (y + 7 * last()) / 8);
     mino += mino_between(y, next);
-    const bool there = std::abs(next - y) <= 1e-15 * std::max(1.0, std::abs(next));
+    // The next step would be its square.
+    const bool there = std::abs(next - y) <= 1e-11 * std::max(1.0, std::abs(next));
     y = next;
     if (there) break;
   }

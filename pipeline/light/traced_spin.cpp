@@ -98,7 +98,7 @@ TracedSpinRay trace_without_spin(const SpinRay& asked) {
 }  // namespace
 
 std::optional<KerrQuestion> kerr_question(const SpinRay& ray) {
-  if (ray.hole.spin != 0 && ray.r > 0 && ray.r <= ray.hole.inner_horizon()) {
+  if (ray.hole.spin != 0 && ray.r <= ray.hole.inner_horizon()) {
     constexpr long double kOutside = 3;
     kerr_place(ray.hole, kOutside, ray.theta);
     if (ray.edge.empty())

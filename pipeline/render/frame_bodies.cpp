@@ -92,6 +92,7 @@ class BodyPainter {
 std::vector<BodyImages> images_of_bodies(const FrameScene& scene, std::span<const Body> bodies,
                                          const DiscPass* disc, const GasRays* gas) {
   std::vector<BodyImages> images;
+  if (bodies.empty()) return images;
   BodyPainter painter(scene, disc, gas);
   const BodySight& sight = painter.sight();
   if (!sight.sees()) return images;

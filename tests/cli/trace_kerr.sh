@@ -21,7 +21,7 @@ refused '0.9,0.5,5,1,1,0,,' 'spin.2 . charge.2 must be at most 1'
 refused '1.1,0,5,1,1,0,,' 'spin.2 . charge.2 must be at most 1'
 # Nothing is said inside the inner horizon, but what is no ray is refused there, too.
 refused '0.9,0.5,1,1,1,0,,' 'spin.2 . charge.2 must be at most 1'
-refused '0.6,0,-3,1,1,0,,' 'r must be above the inner horizon, 0.2'
+refused '0.6,0,-3,4,1,0,,' 'theta must be from 0 to pi'
 refused '0.6,0,0.1,4,1,0,,' 'theta must be from 0 to pi'
 refused '0.6,0,0.1,1,4,0,,' 'delta must be from 0 to pi'
 refused '0.6,0,0.1,1,,0,,' 'delta'

@@ -191,6 +191,25 @@ TEST(KerrOrbit, BeginsWhereItWasPut) {
   }
 }
 
+// The ends of an orbit are passed, whichever way they are rounded.
+TEST(KerrOrbit, PassesItsOwnEnds) {
+  for (const double spin : {0.3, 0.9, 0.998})
+    for (const double inclination : {0.0, 0.7, 2.6})
+      for (const auto& [least, most] :
+           {std::pair(6.0, 10.0), std::pair(8.0, 9.0), std::pair(10.0, 14.0)}) {
+        const KerrHole hole{spin, 0};
+        const auto motion = kerr_bound(hole, least, most, inclination);
+        if (!motion) continue;
+        const KerrOrbit orbit(hole, least, pi / 2, *motion);
+        for (const double r : {least, most})
+          for (const Leg leg : {Leg::kInward, Leg::kOutward}) {
+            const auto passed = orbit.time_at(r, leg, 1);
+            ASSERT_TRUE(passed) << spin << " " << inclination << " " << r;
+            EXPECT_NEAR(orbit.at(*passed).r, r, 1e-11 * r);
+          }
+      }
+}
+
 // Without spin it is Schwarzschild's orbit.
 TEST(KerrOrbit, OfLittleSpinIsThatOfNone) {
   const KerrHole hole{1e-13L, 0};

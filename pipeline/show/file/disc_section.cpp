@@ -64,8 +64,9 @@ std::optional<PatternKind> read_pattern(const Item& item, const Disc& disc, cons
     }
     case Type::kSpot: {
       const Section s(map, {"pattern", "spot"});
+      const double stable = disc.orbits.last_stable();
       const double r =
-          s.given("r", s.range("r").at_least(disc.orbits.last_stable())).value_or(SpotPattern().r);
+          s.given("r", s.range("r").at_least(stable)).value_or(std::max(SpotPattern().r, stable));
       return SpotPattern{r, s.angle("azimuth_deg"), s.number("size_r"), s.number("brightness")};
     }
     case Type::kFile:
