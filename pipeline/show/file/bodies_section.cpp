@@ -229,9 +229,8 @@ void check_body(const Body& body, const Spacetime& spacetime, const Item& light,
 
 namespace {
 
-Body read_body(const std::string& name, const Item& item, const Show& to,
+Body read_body(const std::string& name, const Item& item, const Section& s, const Show& to,
                std::optional<double> year, Lookup& lookup) {
-  const Section s(item, {"bodies", "body.light"});
   Body body;
   body.name = name;
   const std::size_t problems = item.problems->count();
@@ -354,8 +353,9 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
   std::map<std::string, Item> names;
   for (const auto& [name, item] : entries_of(*list)) names.emplace(name, item);
   for (const auto& [name, item] : entries_of(*list)) {
-    bodies.push_back(read_body(name, item, to, to.begins_year, lookup));
-    read_surface(Section(item, {"bodies", "body.light"}), to, names, lookup, bodies.back());
+    const Section s(item, {"bodies", "body.light"});
+    bodies.push_back(read_body(name, item, s, to, to.begins_year, lookup));
+    read_surface(s, to, names, lookup, bodies.back());
   }
   const std::vector<Body> all = bodies;
   for (Body& body : bodies)
