@@ -11,6 +11,7 @@
 #include <string>
 
 #include "pipeline/base/stop_watch.h"
+#include "pipeline/base/temporary_file.h"
 #include "pipeline/grade/grader.h"
 #include "pipeline/render/renderer.h"
 #include "pipeline/report/frame_timing.h"
@@ -101,6 +102,28 @@ void render_sky(benchmark::State& state) {
   render_again(state, show);
 }
 
+// A fall from rest about a hole that spins, with so many thousandths of what it can.  Each frame is another
+// one, since who stays at a place has its chart once.
+void render_spin(benchmark::State& state) {
+  reset_peak_memory();
+  const ScratchFolder folder;
+  const auto path = folder / "fall.yaml";
+  std::ofstream(path)
+      << "size: " << state.range(0)
+      << "\nblack_hole: {mass_solar: 1e6, spin: " << static_cast<double>(state.range(1)) / 1e3
+      << "}\ntimeline: [{duration_s: 10, trajectory: {type: infall, from_r: 7.5, to_r: 6.5}}]\n";
+  Show show = read_show(path);
+  if (state.range(2) == 0) show.sky[SkyRegion::kI].stars.reset();
+  Renderer renderer(show, 0);
+  HalfFrame frame = renderer.render(frame_state(show, 0));  // loads the sky
+  Stopwatch watch;
+  for (int k = 1; auto _ : state) {
+    const FrameState at = frame_state(show, k++ % 300);
+    watch.time([&] { renderer.render(at, frame); });
+  }
+  watch.report(state, frame);
+}
+
 void load_and_render_frame(benchmark::State& state) {
   reset_peak_memory();
   const Show show = first_light(static_cast<int>(state.range(0)));
@@ -178,6 +201,10 @@ BENCHMARK(render_sky)
     ->Args({4096, kInside})
     ->Args({8192, kFrame})
     ->Args({8192, kInside})
+    ->Apply(timed);
+BENCHMARK(render_spin)
+    ->ArgNames({"size", "thousandths", "stars"})
+    ->ArgsProduct({{4096}, {0, 500, 900, 998}, {0, 1}})
     ->Apply(timed);
 BENCHMARK(load_and_render_frame)->Arg(4096)->Apply(timed);
 void of_each_view(benchmark::internal::Benchmark* of) {
