@@ -21,8 +21,6 @@ using std::numbers::pi;
 constexpr int kRows = 144, kRowsOfFast = 288, kColumns = 192;
 constexpr long double kFast = 0.25;  // half of r_+ - r_-
 constexpr std::size_t kPoints = 8;
-// Where polynomials of six points differ so much from those of eight (radians), the chart is not used.
-constexpr double kRough = 3e-5;
 
 using Four = double __attribute__((vector_size(32)));
 

@@ -17,6 +17,8 @@ namespace domefall {
 class KerrChart {
  public:
   static constexpr double kLeast = KerrGrid::kLeast;
+  // Where error() is larger (radians), exact rays are followed instead.
+  static constexpr double kRough = 3e-5;
 
   // The sky is that of region I or III.  For III the observer must be between the horizons.
   KerrChart(const KerrPlace& at, KerrEdge sky);

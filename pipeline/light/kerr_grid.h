@@ -4,8 +4,8 @@
 //     s = ln((delta - edge)/(2 end - edge - delta))        end = pi, or 0 for the side of the hole
 //
 // where `edge` is that of a sky at the same eta.  In these coordinates what is seen is smooth up to the
-// edge, towards which it is seen again and again, and through the end, where all eta meet.  Places in the grid count in cells, rows from the edge
-// on and columns around the hole.
+// edge, towards which it is seen again and again, and through the end, where all eta meet.  Places in the
+// grid count in cells, rows from the edge on and columns around the hole.
 #pragma once
 
 #include <cstddef>

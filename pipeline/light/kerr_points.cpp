@@ -19,9 +19,9 @@ constexpr double kFaintest = 3e-6;
 // So are those whose places are not known to so many radians: the crowded images next to the flat side
 // of a hole that spins nearly as fast as it can.
 constexpr double kLost = 0.1;
-// Where they are not known to kRough, exact rays find the images that have more than kBright of their
+// Where the chart is rough, exact rays find the images that have more than kBright of their
 // star's light, and where not to kDoubtful, they tell whether there is a fainter one at all.
-constexpr double kRough = 3e-5, kBright = 1e-2, kDoubtful = 1e-3;
+constexpr double kBright = 1e-2, kDoubtful = 1e-3;
 // There two cells may have an image on their rim as far apart as this part of a cell.
 constexpr double kRoughRim = 0.05;
 // Cells are halved down to the smallest where a caustic goes through them, or where they are not even to
@@ -50,7 +50,7 @@ KerrPoints::KerrPoints(const KerrChart& chart, double sine, double cosine)
 void KerrPoints::add(double row, double column, double size) {
   const KerrChart::Value centre = chart_.value(row, column);
   Cell cell{row, column, size, 0, centre.sky, {}, {}, 0, 0, 0};
-  cell.rough = chart_.error(row, column) > kRough;
+  cell.rough = chart_.error(row, column) > KerrChart::kRough;
   const V3d &d = centre.by_row, &e = centre.by_column;
   const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e), det = dd * ee - de * de;
   if (!(det > 0)) return;
@@ -154,8 +154,8 @@ bool KerrPoints::is_there(const V3d& place, const KerrChart::Direction& n) const
   return (ray.sky - place).length() < kFarOff;
 }
 
-// Where polynomials are too far off, a bright image is found by Newton's method on exact rays, from where they
-// have it.  Returns its ray, or nothing where there is none so near.
+// Where polynomials are too far off, a bright image is found by Newton's method on exact rays, from where
+// they have it.  Returns its ray, or nothing where there is none so near.
 std::optional<TracedKerr> KerrPoints::meet(const V3d& place, KerrChart::Direction& n) const {
   constexpr int kSteps = 12;
   constexpr double kFarthest = 0.5;  // of the way from the edge, in one step
@@ -189,7 +189,7 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
     double seen = at.value.by_row.cross(at.value.by_column).length();
     std::optional<TracedKerr> exact;
     const double error = chart_.error(at.row, at.column);
-    if (error > kRough) {
+    if (error > KerrChart::kRough) {
       const auto same = [&](const std::array<double, 2>& other) {
         const double on = std::remainder(other[1] - at.column, chart_.columns());
         return std::max(std::abs(other[0] - at.row), std::abs(on)) < 2 * kRoughRim;
@@ -198,7 +198,7 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
       rough.push_back({at.row, at.column});
     }
     if (error > kDoubtful && !is_there(place, n)) return;
-    if (error > kRough && view > kBright * seen && !(exact = meet(place, n))) return;
+    if (error > KerrChart::kRough && view > kBright * seen && !(exact = meet(place, n))) return;
     const double s = std::sin(n.delta);
     SkyImage image;
     image.direction.v = {-std::cos(n.delta), -s * std::cos(n.eta), -s * std::sin(n.eta)};

@@ -105,6 +105,15 @@ TEST_F(SpinShow, HasBodiesOnItsOrbits) {
   EXPECT_NEAR(motion(2).at(3).direction.dot(axis(s)), 0.5, 1e-12);
 }
 
+// Its default place is on a stable orbit.
+TEST_F(SpinShow, SpotOfARetrogradeDiscIsOnAStableOrbit) {
+  const Show show = read(
+      "black_hole: {mass_solar: 4, spin: 0.9}\ndisc: {retrograde: true, pattern: spot}\n"
+      "sky: {region_I: {background: black, stars: none}}\n"
+      "timeline: [{duration_s: 1, trajectory: {type: static, r: 30}}]\n");
+  EXPECT_NEAR(std::get<SpotPattern>(show.disc->patterns.at(0)).r, 8.7174, 1e-4);
+}
+
 TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   const auto has = [](const std::string& told, const char* text) {
     EXPECT_NE(told.find(text), std::string::npos) << told;
