@@ -17,8 +17,11 @@ namespace {
 
 using std::numbers::pi;
 
-// A hole that spins nearly as fast as it can winds its light up many times a row.
-constexpr int kRows = 144, kRowsOfFast = 288, kColumns = 192;
+// Between the horizons the sky is crowded away from the edge, too.
+constexpr int kRows = 96, kRowsInside = 144;
+// The silhouette of a hole that spins nearly as fast as it can has corners, next to which the sky changes
+// from column to column.
+constexpr int kColumns = 192, kColumnsOfFast = 512;
 constexpr long double kFast = 0.25;  // half of r_+ - r_-
 constexpr std::size_t kPoints = 8;
 
@@ -59,21 +62,22 @@ V3d across(const V3d& v, const V3d& unit) { return v - unit * v.dot(unit); }
 }  // namespace
 
 KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
-    : grid_(at, sky, sky == KerrEdge::kSilhouette ? pi : 0,
-            at.hole.horizon_distance() < kFast ? kRowsOfFast : kRows, kColumns),
+    : grid_(at, sky, sky == KerrEdge::kSilhouette ? pi : 0, at.delta() < 0 ? kRowsInside : kRows,
+            at.hole.horizon_distance() < kFast ? kColumnsOfFast : kColumns),
       energy_(at) {
   constexpr int kGuard = KerrGrid::kGuard;
   nodes_.resize(grid_.nodes());
   tbb::parallel_for(-kGuard, rows() + kGuard + 1, [&](int row) {
-    for (int column = 0; column < kColumns; ++column) {
-      const V3d there = trace_kerr_without_area(at, grid_.direction(row, column)).sky;
-      nodes_[grid_.node(row, column)] = {there.x, there.y, there.z, 0};
+    for (int column = 0; column < columns(); ++column) {
+      const TracedKerr ray = trace_kerr_without_area(at, grid_.direction(row, column));
+      const V3d& there = ray.undragged;
+      nodes_[grid_.node(row, column)] = {there.x, there.y, there.z, ray.dragged};
     }
   });
   std::vector<float> middles;
   middles.reserve(grid_.nodes());
   for (int row = 0; row < rows(); ++row)
-    for (int column = 0; column < kColumns; ++column)
+    for (int column = 0; column < columns(); ++column)
       middles.push_back(static_cast<float>((value_of<kPoints>(row + 0.5, column + 0.5).sky -
                                             value_of<kPoints - 2>(row + 0.5, column + 0.5).sky)
                                                .length()));
@@ -83,12 +87,12 @@ KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
     for (int i = std::max(row - 1, 0); i <= std::min(row + 1, rows() - 1); ++i)
       for (int j = column - 1; j <= column + 1; ++j)
         most = std::max(
-            most, middles[static_cast<std::size_t>(i * kColumns + (j + kColumns) % kColumns)]);
+            most, middles[static_cast<std::size_t>(i * columns() + (j + columns()) % columns())]);
     return most;
   };
   errors_.reserve(middles.size());
   for (int row = 0; row < rows(); ++row)
-    for (int column = 0; column < kColumns; ++column) errors_.push_back(around(row, column));
+    for (int column = 0; column < columns(); ++column) errors_.push_back(around(row, column));
 }
 
 template <std::size_t kCount>
@@ -99,15 +103,21 @@ KerrChart::Value KerrChart::value_of(double row, double column) const {
   CellNodes<kCount> cell{
       nodes_.data(), {}, {}, LagrangeWeights<kCount>(row - i), LagrangeWeights<kCount>(column - j)};
   std::size_t at = grid_.node(0, left) - grid_.node(0, 0);
+  const auto around = static_cast<std::size_t>(columns());
   for (std::size_t k = 0; k < kCount; ++k) {
     cell.row[k] = grid_.node(top + static_cast<int>(k), 0);
     cell.column[k] = at;
-    at = at + 1 == kColumns ? 0 : at + 1;
+    at = at + 1 == around ? 0 : at + 1;
   }
   std::array<Four, 3> found;
   interpolate<kCount>(cell, found.data());
-  const auto vector = [](const Four& v) { return V3d(v[0], v[1], v[2]); };
-  Value value{vector(found[0]), vector(found[1]), vector(found[2])};
+  const double c = std::cos(found[0][3]), s = std::sin(found[0][3]);
+  const auto turned = [&](double x, double y, double z) {
+    return V3d(x * c - y * s, x * s + y * c, z);
+  };
+  const Four &n = found[0], &d = found[1], &e = found[2];
+  Value value{turned(n[0], n[1], n[2]), turned(d[0] - d[3] * n[1], d[1] + d[3] * n[0], d[2]),
+              turned(e[0] - e[3] * n[1], e[1] + e[3] * n[0], e[2])};
   value.sky.normalize();
   value.by_row = across(value.by_row, value.sky);
   value.by_column = across(value.by_column, value.sky);
@@ -120,8 +130,8 @@ KerrChart::Value KerrChart::value(double row, double column) const {
 
 double KerrChart::error(double row, double column) const {
   const int i = std::clamp(static_cast<int>(row), 0, rows() - 1),
-            j = static_cast<int>(std::floor(column)), on = (j % kColumns + kColumns) % kColumns;
-  return double{errors_[static_cast<std::size_t>(i * kColumns + on)]};
+            j = static_cast<int>(std::floor(column)), on = (j % columns() + columns()) % columns();
+  return double{errors_[static_cast<std::size_t>(i * columns() + on)]};
 }
 
 KerrChart::Place KerrChart::place(double delta, double eta, const Edge& edge) const {

@@ -16,17 +16,15 @@ using std::numbers::pi;
 constexpr int kRings = 64, kSectors = 128;
 // A cell whose images are fainter than this part of their stars is left out.
 constexpr double kFaintest = 3e-6;
-// So are those whose places are not known to so many radians: the crowded images next to the flat side
-// of a hole that spins nearly as fast as it can.
-constexpr double kLost = 0.1;
-// Where the chart is rough, exact rays find the images that have more than kBright of their
-// star's light, and where not to kDoubtful, they tell whether there is a fainter one at all.
-constexpr double kBright = 1e-2, kDoubtful = 1e-3;
-// There two cells may have an image on their rim as far apart as this part of a cell.
-constexpr double kRoughRim = 0.05;
-// Cells are halved down to the smallest where a caustic goes through them, or where they are not even to
-// this part of their size.
-constexpr double kUneven = 0.4, kSmallest = 0.3;
+// So are those whose places are not known to so many radians: the crowded images next to the corners of
+// a hole that spins nearly as fast as it can.
+constexpr double kLost = 1e-2;
+// Cells are halved, from kLargest down to kSmallest, where a caustic goes through them, or where they are
+// not even to this part of their size.
+constexpr double kUneven = 0.4, kLargest = 2, kSmallest = 0.125;
+// The smallest cells are this long at most (radians), so that those where light winds up faster are left
+// out, too.
+constexpr double kWound = 0.5 / kSmallest;
 
 int ring_of(double z) { return std::clamp(static_cast<int>((z + 1) / 2 * kRings), 0, kRings - 1); }
 int sector_of(double azimuth) {
@@ -36,87 +34,181 @@ int sector_of(double azimuth) {
 
 }  // namespace
 
+struct KerrPoints::Sample {
+  KerrChart::Value at;
+  double view,
+      ratio;  // the solid angle of view of one cell of the chart there, and the frequency ratio
+};
+
+// Three by three places of a rectangle of the chart.
+struct KerrPoints::Net {
+  double row, column, half_rows, half_columns;
+  std::array<std::array<Sample, 3>, 3> samples;  // by row and by column
+
+  const V3d& sky(int i, int j) const {
+    return samples[static_cast<std::size_t>(i + 1)][static_cast<std::size_t>(j + 1)].at.sky;
+  }
+  // By how much it is bent along its rows and along its columns, as a chord.
+  double bend_of_rows() const {
+    double most = 0;
+    for (const int j : {-1, 0, 1})
+      most = std::max(most, (sky(-1, j) + sky(1, j) - sky(0, j) * 2).length());
+    return most;
+  }
+  double bend_of_columns() const {
+    double most = 0;
+    for (const int i : {-1, 0, 1})
+      most = std::max(most, (sky(i, -1) + sky(i, 1) - sky(i, 0) * 2).length());
+    return most;
+  }
+};
+
+KerrPoints::Sample KerrPoints::sample(double row, double column) const {
+  const KerrChart::Direction n = chart_.direction(row, column);
+  return {chart_.value(row, column),
+          std::abs(n.by_row * std::sin(n.delta)) * 2 * pi / chart_.columns(),
+          chart_.frequency_ratio(n.delta, n.eta)};
+}
+
 KerrPoints::KerrPoints(const KerrChart& chart, double sine, double cosine)
     : chart_(chart), sine_(sine), cosine_(cosine), bins_(kRings * kSectors) {
-  for (int row = 0; row < chart.rows(); ++row)
-    for (int column = 0; column < chart.columns(); ++column)
-      if (chart.error(row, column) < kLost) add(row + 0.5, column + 0.5, 1);
+  constexpr double kHalf = kLargest / 2;
+  for (double row = kHalf; row < chart.rows(); row += kLargest)
+    for (double column = kHalf; column < chart.columns(); column += kLargest) {
+      Net net{row, column, kHalf, kHalf, {}};
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          net.samples[i][j] = sample(row + (static_cast<double>(i) - 1) * kHalf,
+                                     column + (static_cast<double>(j) - 1) * kHalf);
+      add(net);
+    }
   for (std::vector<int>& bin : bins_)
     std::sort(bin.begin(), bin.end(), [this](int a, int b) {
       return cells_[static_cast<std::size_t>(a)].light > cells_[static_cast<std::size_t>(b)].light;
     });
 }
 
-void KerrPoints::add(double row, double column, double size) {
-  const KerrChart::Value centre = chart_.value(row, column);
-  Cell cell{row, column, size, 0, centre.sky, {}, {}, 0, 0, 0};
-  cell.rough = chart_.error(row, column) > KerrChart::kRough;
-  const V3d &d = centre.by_row, &e = centre.by_column;
-  const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e), det = dd * ee - de * de;
-  if (!(det > 0)) return;
-  cell.by_row = (d * ee - e * de) / det, cell.by_column = (e * dd - d * de) / det;
-  double off_row = 0, off_column = 0;
+// Adds both halves of a rectangle, which have six of their places from it.
+void KerrPoints::split(const Net& net, bool by_rows) {
+  for (const int side : {-1, 1}) {
+    Net half = net;
+    const std::size_t outer = side < 0 ? 0 : 2, inner = 2 - outer;
+    (by_rows ? half.row : half.column) += side * (by_rows ? net.half_rows : net.half_columns) / 2;
+    (by_rows ? half.half_rows : half.half_columns) /= 2;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double along = static_cast<double>(k) - 1;
+      if (by_rows) {
+        half.samples[outer][k] = net.samples[outer][k];
+        half.samples[inner][k] = net.samples[1][k];
+        half.samples[1][k] = sample(half.row, half.column + along * half.half_columns);
+      } else {
+        half.samples[k][outer] = net.samples[k][outer];
+        half.samples[k][inner] = net.samples[k][1];
+        half.samples[k][1] = sample(half.row + along * half.half_rows, half.column);
+      }
+    }
+    add(half);
+  }
+}
+
+void KerrPoints::add(const Net& net) {
+  if (chart_.error(net.row, net.column) > kLost) return;
   bool turned = false, straight = false;
-  double radius = 0, least_area = HUGE_VAL, view = 0, ratio = 0;
-  for (int k = 0; k < 9; ++k) {
-    const int i = k / 3 - 1, j = k % 3 - 1;
-    const double down = i * size / 2, on = j * size / 2;
-    const KerrChart::Value at = chart_.value(row + down, column + on);
-    const KerrChart::Direction n = chart_.direction(row + down, column + on);
-    radius = std::max(radius, (at.sky - cell.middle).length());
-    off_row = std::max(off_row, std::abs(at.sky.dot(cell.by_row) - down));
-    off_column = std::max(off_column, std::abs(at.sky.dot(cell.by_column) - on));
-    least_area = std::min(least_area, at.by_row.cross(at.by_column).length());
-    (at.by_row.cross(at.by_column).dot(at.sky) > 0 ? turned : straight) = true;
-    // The solid angle of view of one cell of the chart there.
-    view = std::max(view, std::abs(n.by_row * std::sin(n.delta)) * 2 * pi / chart_.columns());
-    ratio = std::max(ratio, chart_.frequency_ratio(n.delta, n.eta));
-  }
+  double least_area = HUGE_VAL, longest = 0, view = 0, ratio = 0;
+  for (const auto& row : net.samples)
+    for (const Sample& sample : row) {
+      const V3d area = sample.at.by_row.cross(sample.at.by_column);
+      least_area = std::min(least_area, area.length());
+      longest = std::max({longest, sample.at.by_row.length2(), sample.at.by_column.length2()});
+      (area.dot(sample.at.sky) > 0 ? turned : straight) = true;
+      view = std::max(view, sample.view), ratio = std::max(ratio, sample.ratio);
+    }
+  if (longest > kWound * kWound) return;
+  Cell cell;
+  cell.row = net.row, cell.column = net.column;
+  cell.half_rows = net.half_rows, cell.half_columns = net.half_columns;
   cell.folded = turned && straight;
-  if ((cell.folded || std::max(off_row, off_column) > kUneven * size) && size > kSmallest) {
-    for (const double down : {-0.25, 0.25})
-      for (const double on : {-0.25, 0.25}) add(row + down * size, column + on * size, size / 2);
-    return;
-  }
-  const double shift4 = ratio * ratio * ratio * ratio;
+  set_inverse(cell, net);
+  const bool rows = net.half_rows > kSmallest / 2, columns = net.half_columns > kSmallest / 2;
+  const bool uneven = !(cell.off_row < 2 * kUneven * net.half_rows &&
+                        cell.off_column < 2 * kUneven * net.half_columns);
   // Between the places that were looked at there may be a caustic, where light has no bound.
-  const double light = view / std::max(least_area, 1e-300) * shift4;
+  const double light = view / std::max(least_area, 1e-300) * ratio * ratio * ratio * ratio;
   if (!(light > kFaintest)) return;
+  if ((cell.folded || uneven) && (rows || columns))
+    return split(net, rows && (!columns || net.bend_of_rows() > net.bend_of_columns()));
   cell.light = static_cast<float>(std::min(2 * light, 1e30));
-  cell.radius = static_cast<float>(1.1 * radius);
-  cell.off_row = static_cast<float>(0.51 * size + 1.3 * off_row);
-  cell.off_column = static_cast<float>(0.51 * size + 1.3 * off_column);
+  cell.off_row = static_cast<float>(1.02 * net.half_rows + 1.3 * cell.off_row);
+  cell.off_column = static_cast<float>(1.02 * net.half_columns + 1.3 * cell.off_column);
   if (cell.folded) set_box(cell);
   most_light_ = std::max(most_light_, static_cast<double>(cell.light));
-  const int number = static_cast<int>(cells_.size());
   cells_.push_back(cell);
-  // All bins within the cap.
-  const double angle = 2 * std::asin(std::min(1.0, cell.radius / 2.0));
-  const double latitude = std::asin(std::clamp(cell.middle.z, -1.0, 1.0));
-  const double low = std::sin(std::max(-pi / 2, latitude - angle)),
-               high = std::sin(std::min(pi / 2, latitude + angle));
+  put_in_bins(net);
+}
+
+// Sets the inverse of its derivatives, by how much it is off, and the radius.
+void KerrPoints::set_inverse(Cell& cell, const Net& net) const {
+  const KerrChart::Value& centre = net.samples[1][1].at;
+  const V3d &d = centre.by_row, &e = centre.by_column;
+  cell.middle = centre.sky;
+  const double dd = d.dot(d), ee = e.dot(e), de = d.dot(e), det = dd * ee - de * de;
+  if (det > 0) cell.by_row = (d * ee - e * de) / det, cell.by_column = (e * dd - d * de) / det;
+  double off_row = 0, off_column = 0, radius = 0;
+  for (const int i : {-1, 0, 1})
+    for (const int j : {-1, 0, 1}) {
+      const V3d& at = net.sky(i, j);
+      radius = std::max(radius, (at - cell.middle).length());
+      off_row = std::max(off_row, std::abs(at.dot(cell.by_row) - i * cell.half_rows));
+      off_column = std::max(off_column, std::abs(at.dot(cell.by_column) - j * cell.half_columns));
+    }
+  cell.off_row = static_cast<float>(off_row), cell.off_column = static_cast<float>(off_column);
+  cell.radius = static_cast<float>(1.1 * radius);
+}
+
+// Puts the last cell into all bins that its places reach.
+void KerrPoints::put_in_bins(const Net& net) {
+  // Between the places a cell may be bent outwards.
+  constexpr double kWider = 0.1;
+  const Cell& cell = cells_.back();
+  double low = 1, high = -1, first = 0, last = 0;
   const double azimuth = std::atan2(cell.middle.y, cell.middle.x);
-  const bool polar = std::abs(latitude) + angle >= pi / 2;
-  const double wide = polar ? pi : std::asin(std::min(1.0, std::sin(angle) / std::cos(latitude)));
-  const int first = sector_of(azimuth - wide), last = sector_of(azimuth + wide);
-  const int count = polar || 2 * wide > 2 * pi * (kSectors - 1) / kSectors
-                        ? kSectors
-                        : (last - first + kSectors) % kSectors + 1;
-  for (int ring = ring_of(low); ring <= ring_of(high); ++ring)
+  for (const auto& row : net.samples)
+    for (const auto& [at, view, ratio] : row) {
+      low = std::min(low, at.sky.z), high = std::max(high, at.sky.z);
+      const double on = std::remainder(std::atan2(at.sky.y, at.sky.x) - azimuth, 2 * pi);
+      first = std::min(first, on), last = std::max(last, on);
+    }
+  const double bend = net.bend_of_rows() + net.bend_of_columns();
+  const double angle = 2 * std::asin(std::min(1.0, cell.radius / 2.0));
+  const double polar_angle = std::acos(std::clamp(std::abs(cell.middle.z), 0.0, 1.0));
+  const double wider = kWider * (high - low) + bend;
+  const int bottom = ring_of(polar_angle < angle && cell.middle.z < 0 ? -1 : low - wider),
+            top = ring_of(polar_angle < angle && cell.middle.z > 0 ? 1 : high + wider);
+  const double aside =
+      kWider * (last - first) + bend / std::max(std::sin(polar_angle) - angle, 1e-9);
+  const bool all = polar_angle < angle || last - first + 2 * aside > 1.9 * pi;
+  const int begin = all ? 0 : sector_of(azimuth + first - aside);
+  const int count =
+      all ? kSectors : (sector_of(azimuth + last + aside) - begin + kSectors) % kSectors + 1;
+  const int number = static_cast<int>(cells_.size()) - 1;
+  for (int ring = bottom; ring <= top; ++ring)
     for (int k = 0; k < count; ++k)
-      bins_[static_cast<std::size_t>(ring * kSectors + (first + k) % kSectors)].push_back(number);
+      bins_[static_cast<std::size_t>(ring * kSectors + (begin + k) % kSectors)].push_back(number);
 }
 
 // A cell that is folded over has a box, along its longer side on the sky, that holds it.
 void KerrPoints::set_box(Cell& cell) const {
   const KerrChart::Value centre = chart_.value(cell.row, cell.column);
-  const bool rows = centre.by_row.length2() > centre.by_column.length2();
+  const bool rows = centre.by_row.length2() * cell.half_rows * cell.half_rows >
+                    centre.by_column.length2() * cell.half_columns * cell.half_columns;
   cell.by_row = (rows ? centre.by_row : centre.by_column).normalized();
   cell.by_column = centre.sky.cross(cell.by_row);
   double long_side = 0, short_side = 0;
   for (int k = 0; k < 25; ++k) {
     const int i = k / 5 - 2, j = k % 5 - 2;
-    const V3d at = chart_.value(cell.row + i * cell.size / 4, cell.column + j * cell.size / 4).sky;
+    const V3d at =
+        chart_.value(cell.row + i * cell.half_rows / 2, cell.column + j * cell.half_columns / 2)
+            .sky;
     long_side = std::max(long_side, std::abs(at.dot(cell.by_row)));
     short_side = std::max(short_side, std::abs(at.dot(cell.by_column)));
   }
@@ -127,54 +219,24 @@ void KerrPoints::set_box(Cell& cell) const {
 // Newton's method from one place of a cell.  Returns whether it comes to an image in the cell.
 bool KerrPoints::find(const V3d& place, const Cell& cell, Found& at) const {
   // Images on the rim of a cell are found in both.
-  const double rim = cell.rough ? kRoughRim : 1e-7;
+  constexpr double kRim = 1e-7;
   for (int step = 0; step < 16; ++step) {
     at.value = chart_.value(at.row, at.column);
     const auto by = parts_along(place - at.value.sky * place.dot(at.value.sky), at.value.by_row,
                                 at.value.by_column);
     if (!by) return false;
     const auto [by_row, by_column] = *by;
-    const double most = 0.3 * cell.size;
-    at.row += std::clamp(by_row, -most, most), at.column += std::clamp(by_column, -most, most);
-    const double out = std::max(std::abs(at.row - cell.row), std::abs(at.column - cell.column));
-    if (out > cell.size) return false;
+    const double most_rows = 0.6 * cell.half_rows, most_columns = 0.6 * cell.half_columns;
+    at.row += std::clamp(by_row, -most_rows, most_rows);
+    at.column += std::clamp(by_column, -most_columns, most_columns);
+    const double out_rows = std::abs(at.row - cell.row) - cell.half_rows,
+                 out_columns = std::abs(at.column - cell.column) - cell.half_columns;
+    if (out_rows > cell.half_rows || out_columns > cell.half_columns) return false;
     // The next step would be its square.
     if (std::abs(by_row) < 1e-5 && std::abs(by_column) < 1e-5)
-      return out < 0.5 * cell.size + rim && place.dot(at.value.sky) > 0;
+      return std::max(out_rows, out_columns) < kRim && place.dot(at.value.sky) > 0;
   }
   return false;
-}
-
-// Says whether the exact ray leads to a place.  Most of those that polynomials send far away are of no
-// image at all.
-bool KerrPoints::is_there(const V3d& place, const KerrChart::Direction& n) const {
-  constexpr double kFarOff = 0.05;
-  const double way = n.delta - chart_.edge(n.eta).delta;
-  const TracedKerr ray = trace_kerr_without_area(chart_.at(), {0, n.eta, chart_.sky(), way});
-  return (ray.sky - place).length() < kFarOff;
-}
-
-// Where polynomials are too far off, a bright image is found by Newton's method on exact rays, from where
-// they have it.  Returns its ray, or nothing where there is none so near.
-std::optional<TracedKerr> KerrPoints::meet(const V3d& place, KerrChart::Direction& n) const {
-  constexpr int kSteps = 12;
-  constexpr double kFarthest = 0.5;  // of the way from the edge, in one step
-  double way = n.delta - chart_.edge(n.eta).delta;
-  for (int step = 0; step < kSteps; ++step) {
-    const TracedKerr ray = trace_kerr(chart_.at(), {0, n.eta, chart_.sky(), way});
-    const auto by = parts_along(place - ray.sky * place.dot(ray.sky), ray.by_delta, ray.across);
-    if (!by) return std::nullopt;
-    const double by_delta = (*by)[0], by_eta = (*by)[1] / std::sin(n.delta);
-    const double before = chart_.edge(n.eta).delta, turned = std::clamp(by_eta, -0.05, 0.05);
-    n.eta += turned;
-    const double moved = by_delta - (chart_.edge(n.eta).delta - before),
-                 most = kFarthest * std::abs(way);
-    way += std::clamp(moved, -most, most);
-    n.delta = chart_.edge(n.eta).delta + way;
-    if (std::abs(by_delta) < 1e-7 * std::abs(way) && std::abs(by_eta) < 1e-7)
-      return place.dot(ray.sky) > 0 ? std::optional(ray) : std::nullopt;
-  }
-  return std::nullopt;
 }
 
 void KerrPoints::list_images(const V3d& source, double blur, double least_light,
@@ -182,23 +244,10 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
   const V3d place(source.x * sine_ + source.y * cosine_, source.z,
                   source.x * cosine_ - source.y * sine_);
   const std::size_t begin = images.size();
-  std::vector<std::array<double, 2>> rough;  // rows and columns of images in rough cells
   const auto append = [&](const Found& at) {
-    KerrChart::Direction n = chart_.direction(at.row, at.column);
+    const KerrChart::Direction n = chart_.direction(at.row, at.column);
     double view = std::abs(n.by_row) * std::sin(n.delta) * 2 * pi / chart_.columns();
     double seen = at.value.by_row.cross(at.value.by_column).length();
-    std::optional<TracedKerr> exact;
-    const double error = chart_.error(at.row, at.column);
-    if (error > KerrChart::kRough) {
-      const auto same = [&](const std::array<double, 2>& other) {
-        const double on = std::remainder(other[1] - at.column, chart_.columns());
-        return std::max(std::abs(other[0] - at.row), std::abs(on)) < 2 * kRoughRim;
-      };
-      if (std::ranges::any_of(rough, same)) return;
-      rough.push_back({at.row, at.column});
-    }
-    if (error > kDoubtful && !is_there(place, n)) return;
-    if (error > KerrChart::kRough && view > kBright * seen && !(exact = meet(place, n))) return;
     const double s = std::sin(n.delta);
     SkyImage image;
     image.direction.v = {-std::cos(n.delta), -s * std::cos(n.eta), -s * std::sin(n.eta)};
@@ -206,9 +255,7 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
       if ((images[k].direction.v - image.direction.v).length() < 1e-9) return;
     image.frequency_ratio = chart_.frequency_ratio(n.delta, n.eta);
     // The solid angle of a cell in the view over that on the sky.  Both are 0 at the end of the view.
-    if (exact) {
-      view = 1, seen = 1 / exact->amplification;
-    } else if (s < 0.02) {
+    if (s < 0.02) {
       const KerrChart::Place place_there = chart_.place(n.delta, n.eta, chart_.edge(n.eta));
       view = 1, seen = place_there.by_delta.cross(place_there.across).length();
     }
@@ -220,21 +267,21 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
            ring_of(place.z) * kSectors + sector_of(std::atan2(place.y, place.x)))]) {
     const Cell& cell = cells_[static_cast<std::size_t>(number)];
     if (cell.light < least_light) break;
-    if ((cell.middle - place).length2() > cell.radius * cell.radius) continue;
     const double down = place.dot(cell.by_row), on = place.dot(cell.by_column);
     if (std::abs(down) > cell.off_row || std::abs(on) > cell.off_column) continue;
+    if ((cell.middle - place).length2() > cell.radius * cell.radius) continue;
     if (cell.folded) {
       // On both sides of a caustic there may be images.
-      for (const double i : {-0.3, 0.3})
-        for (const double j : {-0.3, 0.3}) {
-          Found at{cell.row + i * cell.size, cell.column + j * cell.size, {}};
+      for (const double i : {-0.6, 0.6})
+        for (const double j : {-0.6, 0.6}) {
+          Found at{cell.row + i * cell.half_rows, cell.column + j * cell.half_columns, {}};
           if (find(place, cell, at)) append(at);
         }
       continue;
     }
-    const double half = cell.size / 2;
-    Found at{
-        cell.row + std::clamp(down, -half, half), cell.column + std::clamp(on, -half, half), {}};
+    Found at{cell.row + std::clamp(down, -cell.half_rows, cell.half_rows),
+             cell.column + std::clamp(on, -cell.half_columns, cell.half_columns),
+             {}};
     if (find(place, cell, at)) append(at);
   }
 }

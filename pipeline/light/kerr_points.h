@@ -2,11 +2,9 @@
 // by where they lie on the sky, and in each that may hold a point Newton's method finds its image.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "pipeline/light/kerr_chart.h"
-#include "pipeline/light/kerr_ray.h"
 #include "pipeline/light/sky_points.h"
 
 namespace domefall {
@@ -27,24 +25,31 @@ class KerrPoints : public SkyPoints {
   void images(int, const PointBatch&, int, PointImageBatch&) const override {}
 
  private:
+  // A rectangle of the chart.  What is looked at first stands first.
   struct Cell {
-    double row, column, size;       // of its middle, in cells of the chart
-    float light;                    // the most of amplification * (frequency ratio)^4
-    V3d middle, by_row, by_column;  // a place p is near row p.by_row, and column p.by_column, of it
-    float off_row, off_column;      // how far from there
-    float radius;                   // of a cap that holds it, as a chord
-    bool folded = false;            // whether a caustic goes through it
-    bool rough = false;             // whether polynomials are off there
+    V3d by_row{0, 0, 0},
+        by_column{0, 0, 0};  // a place p is near row p.by_row, and column p.by_column, of it
+    float off_row = 0, off_column = 0;  // how far from there
+    float light = 0;                    // the most of amplification * (frequency ratio)^4
+    float radius = 0;                   // of a cap that holds it, as a chord
+    V3d middle{0, 0, 0};
+    double row, column;              // of its middle, in cells of the chart
+    double half_rows, half_columns;  // of its sides
+    bool folded = false;             // whether a caustic goes through it
   };
   struct Found {
     double row, column;
     KerrChart::Value value;
   };
-  void add(double row, double column, double size);
+  struct Sample;
+  struct Net;
+  Sample sample(double row, double column) const;
+  void add(const Net& net);
+  void split(const Net& net, bool by_rows);
+  void set_inverse(Cell& cell, const Net& net) const;
   void set_box(Cell& cell) const;
+  void put_in_bins(const Net& net);
   bool find(const V3d& place, const Cell& cell, Found& at) const;
-  bool is_there(const V3d& place, const KerrChart::Direction& n) const;
-  std::optional<TracedKerr> meet(const V3d& place, KerrChart::Direction& n) const;
 
   const KerrChart& chart_;
   double sine_, cosine_, most_light_ = 0;

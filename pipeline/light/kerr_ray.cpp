@@ -23,6 +23,7 @@ void follow_to_sky(const KerrStart& start, const KerrRoots& roots, double ratio,
   double angle = value(whole.angle);
   if (start.mirrored) angle = -angle - static_cast<double>(2 * start.at.hole.twist(start.at.r));
   const double c = std::cos(angle), s = std::sin(angle), y = start.mirrored ? -n.y : n.y;
+  out.undragged = V3d(n.x, y, n.z), out.dragged = angle;
   out.sky = V3d(n.x * c - y * s, n.x * s + y * c, n.z);
   if constexpr (std::is_same_v<T, Dual>) {
     const V3d about(-n.y, n.x, 0);

@@ -16,7 +16,11 @@ struct TracedKerr {
   KerrOrigin origin;
   double energy;  // signed; its absolute value is emitted / observed frequency
   // The rest is for light of a sky.
-  V3d sky;               // unit vector to where it comes from, with the hole's axis as z
+  V3d sky;  // unit vector to where it comes from, with the hole's axis as z
+  // That is this one turned by an angle about the axis.  The hole drags light around by the angle, which
+  // grows without bound towards the edge, and by many turns where the hole spins nearly as fast as it can.
+  V3d undragged;
+  double dragged;
   double amplification;  // solid angle seen over solid angle on the sky
   V3d by_delta, across;  // by how much it moves by delta, and by an angle across, sin(delta) eta
   int turns;             // how often cos(theta) was extreme on the way

@@ -41,7 +41,7 @@ TEST(KerrChart, IsTheExactRays) {
       const TracedKerr exact = trace_kerr(place.at(), {delta, eta});
       if (exact.origin == KerrOrigin::kPastHorizon) continue;  // by the edge's rounding
       ++compared;
-      EXPECT_LT((at.sky - exact.sky).length(), 2e-5) << place.spin << " " << delta << " " << eta;
+      EXPECT_LT((at.sky - exact.sky).length(), 1e-5) << place.spin << " " << delta << " " << eta;
       const double size = exact.by_delta.length() + exact.across.length();
       EXPECT_LT((at.by_delta - exact.by_delta).length() + (at.across - exact.across).length(),
                 2e-3 * size)
@@ -49,6 +49,11 @@ TEST(KerrChart, IsTheExactRays) {
       EXPECT_NEAR(chart.frequency_ratio(delta, eta) * std::abs(exact.energy), 1, 1e-9);
     }
     EXPECT_GT(compared, tries(160, 30));
+    int rough = 0;
+    for (int row = 0; row < chart.rows(); ++row)
+      for (int column = 0; column < chart.columns(); ++column)
+        rough += chart.error(row, column) > KerrChart::kRough;
+    EXPECT_LT(rough, chart.rows() * chart.columns() / 50) << place.spin << " " << place.r;
   }
 }
 

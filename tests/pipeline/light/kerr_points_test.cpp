@@ -25,7 +25,7 @@ TEST(KerrPoints, AreSeenWhereTheirLightComesFrom) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> part(0, 1);
   for (const SpinPlace& place : spin_places()) {
-    if (place.spin > 0.99 || (kSanitized && place.charge == 0)) continue;
+    if (kSanitized && place.charge == 0) continue;
     const KerrChart chart(place.at(), place.edge());
     const double s = std::sin(place.theta), c = std::cos(place.theta);
     const KerrPoints points(chart, s, c);
