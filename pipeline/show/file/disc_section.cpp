@@ -67,6 +67,11 @@ std::optional<PatternKind> read_pattern(const Item& item, const Disc& disc, cons
       const double stable = disc.orbits.last_stable();
       const double r =
           s.given("r", s.range("r").at_least(stable)).value_or(std::max(SpotPattern().r, stable));
+      if (!(r >= disc.inner && r <= disc.outer))
+        (s.find("r") ? *s.find("r") : item)
+            .fail(fmt::format("is of a spot at r = {} (units of M), which the disc from {} to {} "
+                              "does not hold",
+                              short_number(r), short_number(disc.inner), short_number(disc.outer)));
       return SpotPattern{r, s.angle("azimuth_deg"), s.number("size_r"), s.number("brightness")};
     }
     case Type::kFile:

@@ -288,7 +288,7 @@ constexpr std::string_view kRows = R"(
 | `contrast` | 0 to 1: with 1 the gaps go dark | [0.8] |
 | `inward_speed` | 0 to 0.5 parts of the speed of light: how fast they drift inwards | [0.02] |
 ## spot
-| `r` | 6 to 1e6: the radius of its orbit; with a charge or a spin from the last stable one on | [8, or that] |
+| `r` | 6 to 1e6: the radius of its orbit; with a charge or a spin from the last stable one on; within the disc | [8, or that] |
 | `azimuth_deg` | -360 to 360: where it is at t = 0, in its orbit's sense from where the gas rises through the plane of the observer's orbits | [0] |
 | `size_r` | 0.01 to 10: the standard deviation of its brightness | [0.7] |
 | `brightness` | 1 to 1e4 times the gas beside it: of its middle | [5] |

@@ -23,7 +23,9 @@ constexpr double kFewestSolarMasses = 1e-20;
 // With a spin in error the rest of the show is still checked as one with a hole that spins.
 double read_spin(const Section& s, double charge) {
   const Item* given = s.find("spin");
-  const auto read = s.given("spin");
+  const auto read = s.given(
+      "spin", s.range("spin").because("a hole that turns the other way has the other end of its "
+                                      "axis as `axis`"));
   if (given && !read) return charge > 1 ? 0 : 0.1;
   const double spin = read.value_or(0);
   if (spin == 0) {

@@ -176,6 +176,12 @@ TEST_F(DiscMistakes, AreNamedWithTheirBounds) {
        "3:42: disc.pattern.seed must be a whole number, got 1.5"},
       {"disc: {pattern: {type: spot, r: 5}}",
        "3:33: disc.pattern.r must be at least 6 (units of M), got 5"},
+      {"disc: {outer_r: 12, pattern: {type: spot, r: 30}}",
+       "3:46: disc.pattern.r is of a spot at r = 30 (units of M), which the disc from 6 to 12 does "
+       "not hold"},
+      {"disc: {outer_r: 7, pattern: spot}",
+       "3:29: disc.pattern is of a spot at r = 8 (units of M), which the disc from 6 to 7 does not "
+       "hold"},
       {"disc: {pattern: [turbulence, spot, {type: turbulence}]}",
        "3:36: disc.pattern[3] is of a type that is there already: only spots can be several"},
       {"disc: {pattern: [spot, {type: spot, r: 5}]}",

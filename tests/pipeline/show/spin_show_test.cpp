@@ -121,6 +121,8 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   has(complaint("black_hole: {mass_solar: 4, spin: 0.9, charge: 0.8}\n"),
       "black_hole.spin must be at most 0.599998");
   has(complaint("black_hole: {mass_solar: 4, spin: 1}\n"), "spin must be at most 0.999999, got 1");
+  has(complaint("black_hole: {mass_solar: 4, spin: -0.5}\n"),
+      "spin must be at least 0, got -0.5: a hole that turns the other way has the other end");
   has(complaint("black_hole: {mass_solar: 4, axis: {ra_deg: 1, dec_deg: 2}}\n"),
       "axis is that of a hole that spins");
   has(complaint("black_hole: {mass_solar: 4, spin: 0, axis: {ra_deg: 1, dec_deg: 2}}\n"),
