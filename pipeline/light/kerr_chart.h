@@ -1,6 +1,6 @@
 // A KerrChart is the table of one sky as it is seen near a hole that spins, by an observer who moves as
-// the reference tetrad T: the unit vector to each place, at the nodes of a KerrGrid, which are exact rays
-// (kerr_ray.h).  Between the nodes there are Lagrange's polynomials of eight.
+// the reference tetrad T: the unit vector to each place, and apart from it the angle by which the hole has
+// dragged the light around, at the nodes of a KerrGrid, which are exact rays (kerr_ray.h).  Between the nodes there are Lagrange's polynomials of eight.
 #pragma once
 
 #include <array>
@@ -66,7 +66,7 @@ class KerrChart {
 
   KerrGrid grid_;
   KerrEnergy energy_;
-  std::vector<std::array<double, 4>> nodes_;  // unit vectors and a 0
+  std::vector<std::array<double, 4>> nodes_;  // TracedKerr's undragged and dragged
   std::vector<float> errors_;
 };
 

@@ -36,8 +36,8 @@ int sector_of(double azimuth) {
 
 struct KerrPoints::Sample {
   KerrChart::Value at;
-  double view,
-      ratio;  // the solid angle of view of one cell of the chart there, and the frequency ratio
+  double view;  // the solid angle of one cell of the chart there
+  double frequency_ratio;
 };
 
 // Three by three places of a rectangle of the chart.
@@ -48,17 +48,13 @@ struct KerrPoints::Net {
   const V3d& sky(int i, int j) const {
     return samples[static_cast<std::size_t>(i + 1)][static_cast<std::size_t>(j + 1)].at.sky;
   }
-  // By how much it is bent along its rows and along its columns, as a chord.
-  double bend_of_rows() const {
+  // By how much it is bent from row to row, or from column to column, as a chord.
+  double bend(bool by_rows) const {
     double most = 0;
-    for (const int j : {-1, 0, 1})
-      most = std::max(most, (sky(-1, j) + sky(1, j) - sky(0, j) * 2).length());
-    return most;
-  }
-  double bend_of_columns() const {
-    double most = 0;
-    for (const int i : {-1, 0, 1})
-      most = std::max(most, (sky(i, -1) + sky(i, 1) - sky(i, 0) * 2).length());
+    for (const int k : {-1, 0, 1}) {
+      const auto on = [&](int step) { return by_rows ? sky(step, k) : sky(k, step); };
+      most = std::max(most, (on(-1) + on(1) - on(0) * 2).length());
+    }
     return most;
   }
 };
@@ -121,7 +117,7 @@ void KerrPoints::add(const Net& net) {
       least_area = std::min(least_area, area.length());
       longest = std::max({longest, sample.at.by_row.length2(), sample.at.by_column.length2()});
       (area.dot(sample.at.sky) > 0 ? turned : straight) = true;
-      view = std::max(view, sample.view), ratio = std::max(ratio, sample.ratio);
+      view = std::max(view, sample.view), ratio = std::max(ratio, sample.frequency_ratio);
     }
   if (longest > kWound * kWound) return;
   Cell cell;
@@ -136,7 +132,7 @@ void KerrPoints::add(const Net& net) {
   const double light = view / std::max(least_area, 1e-300) * ratio * ratio * ratio * ratio;
   if (!(light > kFaintest)) return;
   if ((cell.folded || uneven) && (rows || columns))
-    return split(net, rows && (!columns || net.bend_of_rows() > net.bend_of_columns()));
+    return split(net, rows && (!columns || net.bend(true) > net.bend(false)));
   cell.light = static_cast<float>(std::min(2 * light, 1e30));
   cell.off_row = static_cast<float>(1.02 * net.half_rows + 1.3 * cell.off_row);
   cell.off_column = static_cast<float>(1.02 * net.half_columns + 1.3 * cell.off_column);
@@ -178,7 +174,7 @@ void KerrPoints::put_in_bins(const Net& net) {
       const double on = std::remainder(std::atan2(at.sky.y, at.sky.x) - azimuth, 2 * pi);
       first = std::min(first, on), last = std::max(last, on);
     }
-  const double bend = net.bend_of_rows() + net.bend_of_columns();
+  const double bend = net.bend(true) + net.bend(false);
   const double angle = 2 * std::asin(std::min(1.0, cell.radius / 2.0));
   const double polar_angle = std::acos(std::clamp(std::abs(cell.middle.z), 0.0, 1.0));
   const double wider = kWider * (high - low) + bend;

@@ -27,8 +27,8 @@ class KerrPoints : public SkyPoints {
  private:
   // A rectangle of the chart.  What is looked at first stands first.
   struct Cell {
-    V3d by_row{0, 0, 0},
-        by_column{0, 0, 0};  // a place p is near row p.by_row, and column p.by_column, of it
+    // A place p is near row p.by_row, and column p.by_column, of it.
+    V3d by_row{0, 0, 0}, by_column{0, 0, 0};
     float off_row = 0, off_column = 0;  // how far from there
     float light = 0;                    // the most of amplification * (frequency ratio)^4
     float radius = 0;                   // of a cap that holds it, as a chord
