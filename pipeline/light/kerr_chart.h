@@ -1,6 +1,7 @@
 // A KerrChart is the table of one sky as it is seen near a hole that spins, by an observer who moves as
 // the reference tetrad T: the unit vector to each place, and apart from it the angle by which the hole has
-// dragged the light around, at the nodes of a KerrGrid, which are exact rays (kerr_ray.h).  Between the nodes there are Lagrange's polynomials of eight.
+// dragged the light around, at the nodes of a KerrGrid, which are exact rays (kerr_ray.h).  Between the
+// nodes there are Lagrange's polynomials of eight.
 #pragma once
 
 #include <array>
