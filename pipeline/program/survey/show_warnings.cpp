@@ -216,7 +216,7 @@ void NearGas::add(const FrameState& state) {
   constexpr double kLeft = 0.1;
   const double off = column(state.observer.sky_from_tetrad, 0).dot(disc.normal.v);
   const double part = std::erfc(std::abs(off) / disc.height_at(r) / std::numbers::sqrt2) / 2;
-  const double depth = std::min(depth_across(disc, r), 1e6) * part;
+  const double depth = std::min(depth_across(disc, r, r), 1e6) * part;
   const double opacity = state.settings.disc_opacity;
   if (!(1 - opacity + opacity * std::exp(-depth) < kLeft)) return;
   if (stretches_.empty() || stretches_.back().last_frame + 1 < state.frame)

@@ -94,7 +94,8 @@ DiscPass::Gas DiscPass::gas_at(const Crossings& crossings, int k, double turn, d
   if (disc.is_opaque()) return {r, crossings.rays.frequency[k] / shift, 1};
   // The ray's part along the normal, which the gas's motion in the plane leaves as it is.
   const double across = momentum / r * std::sqrt(std::max(0.0, 1 - about * about));
-  return {r, crossings.rays.frequency[k] / shift, absorbed_part(disc, r, across / shift)};
+  return {r, crossings.rays.frequency[k] / shift,
+          absorbed_part(disc, r, scene_.state.observer.r, across / shift)};
 }
 
 // Says whether light sets out to larger radii.  If so, w grows along the ray back in time.

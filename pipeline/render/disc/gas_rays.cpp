@@ -189,8 +189,9 @@ GasRays::Layer GasRays::layer(const Ray& ray, const Step& step) const {
   // Light that a path leads to above the plane need not get to its circles in it.
   if (!(sent > 0)) return layer;
   const double thickness = std::sqrt(2 * pi) * height * step.r;
-  layer.depth = static_cast<float>(std::min(depth_across(*disc_, step.r), 1e6) / thickness *
-                                   exponential(-off * off / 2) * sent * way);
+  layer.depth =
+      static_cast<float>(std::min(depth_across(*disc_, step.r, scene_.state.observer.r), 1e6) /
+                         thickness * exponential(-off * off / 2) * sent * way);
   layer.r = static_cast<float>(step.r);
   layer.ratio = static_cast<float>(ray.frequency / sent);
   return layer;

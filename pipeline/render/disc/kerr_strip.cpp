@@ -64,7 +64,8 @@ DiscPass::Gas DiscPass::KerrStrip::gas(const Piece& piece, const KerrPlane::Cros
   if (disc_.is_opaque()) return {r, piece.frequency / shift, 1};
   const double y = ray.about_axis - orbits.spin() * ray.energy;
   const double across = std::sqrt(std::max(0.0, ray.momentum * ray.momentum - y * y)) / r;
-  return {r, piece.frequency / shift, absorbed_part(disc_, r, std::min(1.0, across / shift))};
+  return {r, piece.frequency / shift,
+          absorbed_part(disc_, r, pass_.scene_.state.observer.r, std::min(1.0, across / shift))};
 }
 
 // Returns the azimuth of gas in the coordinates of Boyer and Lindquist.

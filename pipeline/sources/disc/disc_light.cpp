@@ -239,23 +239,22 @@ void DiscLight::light(std::span<const float> r, std::span<const float> g,
   }
 }
 
-double depth_across(const Disc& disc, double r) {
+double depth_across(const Disc& disc, double r, double seen_from) {
   double depth = disc.optical_depth;
-  const auto thin_out = [&depth, &disc](double way) {
-    const double t = way / disc.rim;
-    if (t < 1) depth *= t > 0 ? t * t * t * (t * (6 * t - 15) + 10) : 0;
+  const auto thin_out = [&depth](double way, double rim) {
+    const double t = way / rim;
+    if (rim > 0 && t < 1) depth *= t > 0 ? t * t * t * (t * (6 * t - 15) + 10) : 0;
   };
-  if (disc.rim > 0) {
-    thin_out(1 - r / disc.outer);
-    // Gas that falls into the hole has no rim there.
-    if (disc.inner > disc.orbits.horizon()) thin_out(r / disc.inner - 1);
-  }
+  thin_out(1 - r / disc.outer, disc.rim);
+  const double horizon = disc.orbits.horizon();
+  thin_out(r / disc.inner - 1,
+           disc.inner > horizon ? disc.rim : std::min(disc.rim, 1 - seen_from / horizon));
   return depth;
 }
 
-double absorbed_part(const Disc& disc, double r, double steepness) {
+double absorbed_part(const Disc& disc, double r, double seen_from, double steepness) {
   if (disc.is_opaque()) return 1;
-  const double depth = depth_across(disc, r);
+  const double depth = depth_across(disc, r, seen_from);
   constexpr double kOpaque = 40, kGrazing = 1e-9;
   if (depth > kOpaque * steepness) return 1;
   return 1 - exponential(-depth / std::max(steepness, kGrazing));

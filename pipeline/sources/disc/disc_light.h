@@ -100,12 +100,14 @@ class DiscLight {
   std::vector<float> table_;
 };
 
-// Returns the optical depth through the disc at right angles, at a radius between its own.
-double depth_across(const Disc& disc, double r);
+// Returns the optical depth through the disc at right angles, at a radius between its own.  Gas that falls
+// in is drawn down to the horizon.  For whoever is inside it thins out towards there, over more of its
+// radius the farther in the observer's r, `seen_from`, is, and no more than the disc's rim.
+double depth_across(const Disc& disc, double r, double seen_from);
 // Returns the part of the light along a ray that gas at r absorbs and replaces by its own.  The ray
 // leaves the disc at an angle whose cosine is `steepness` for the gas, 0 to 1, so that the optical
 // depth along it is the disc's over that cosine.
-double absorbed_part(const Disc& disc, double r, double steepness);
+double absorbed_part(const Disc& disc, double r, double seen_from, double steepness);
 
 // The shift of a disc's light on its way to an observer follows from a GasRay, which holds what
 // decides it of a view ray.  Gas on a circular orbit has u^t and turns with Omega (gas_orbits.h)

@@ -27,6 +27,24 @@ double relative_error(const WorkingRgb& a, const WorkingRgb& b) {
   return std::max({relative(a.r, b.r, b), relative(a.g, b.g, b), relative(a.b, b.b, b)});
 }
 
+TEST(DiscDepth, FallsToNothingAtTheHorizonForWhoIsInside) {
+  Disc disc = disc_with(1e4, true);
+  disc.outer = 20, disc.optical_depth = 3, disc.rim = 0.1;
+  EXPECT_EQ(depth_across(disc, 2, 2), 3);
+  double before = 3;
+  for (const double r : {1.999, 1.9, 1.5, 0.5}) {
+    EXPECT_EQ(depth_across(disc, 2, r), 0);
+    const double depth = depth_across(disc, 2.1, r);
+    EXPECT_LE(depth, before) << r;
+    EXPECT_GE(depth, 3 * 0.5) << r;  // at half of the rim
+    before = depth;
+  }
+  EXPECT_NEAR(before, 3 * 0.5, 1e-9);
+  EXPECT_EQ(depth_across(disc, 2.3, 0.5), 3);
+  EXPECT_EQ(absorbed_part(disc, 2, 1.5, 0.3), 0);
+  EXPECT_NEAR(absorbed_part(disc, 2, 2, 0.5), 1 - std::exp(-6), 1e-6);
+}
+
 TEST(DiscLight, TheHottestRingHasTheLuminanceOfTheShow) {
   for (const double t : {1500.0, 1e4, 1e7}) {
     for (const bool plunging : {false, true}) {
