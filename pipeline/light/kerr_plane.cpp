@@ -4,13 +4,16 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "pipeline/light/kerr_ray.h"
 #include "pipeline/light/kerr_request.h"
 #include "pipeline/light/kerr_view.h"
 #include "pipeline/light/lagrange.h"
+#include "pipeline/light/light_path.h"
 
 namespace domefall {
 namespace {
@@ -21,6 +24,8 @@ constexpr int kPlaneRows = 128, kPlaneColumns = 192;
 constexpr int kPlanePoints = 6;
 // Cells are rough where polynomials of four and of six nodes differ by this part of w.
 constexpr double kMostOff = 1e-4;
+// Light with less of its own energy is followed in steps.
+constexpr double kLeastEnergy = 1e-3;
 
 }  // namespace
 
@@ -46,8 +51,8 @@ std::shared_ptr<const KerrPlane> KerrPlaneKeeper::plane(const KerrPlace& at,
 KerrPlane::Sight KerrPlane::beginning(double delta, double eta) const {
   const KerrConstants of(at(), delta, eta);
   Sight sight{};
-  sight.energy = of.comes_from_region_one(at()) ? of.energy : 0;
-  sight.momentum = of.momentum, sight.about_axis = of.about_axis;
+  sight.comes = of.comes_from_region_one(at());
+  sight.energy = of.energy, sight.momentum = of.momentum, sight.about_axis = of.about_axis;
   return sight;
 }
 
@@ -55,11 +60,39 @@ KerrPlane::Sight KerrPlane::beginning(double delta, double eta) const {
 bool KerrPlane::exact_nodes(const KerrDirection& n, std::array<Node, kOrders>& nodes) const {
   for (Node& node : nodes) node.fill(std::nan(""));
   const auto delta = static_cast<double>(kerr_delta(at(), n));
-  if (!(beginning(delta, static_cast<double>(n.eta)).energy > 0)) return false;
+  const auto eta = static_cast<double>(n.eta);
+  const Sight ray = beginning(delta, eta);
+  if (!ray.comes) return false;
+  if (ray.energy > kLeastEnergy) {
+    std::size_t order = 0;
+    for (const KerrPassage& passage : kerr_passages(at(), n, nodes.size()))
+      nodes[order++] = {1 / passage.r, passage.phi, passage.null_time, passage.speed * ray.energy};
+  } else {
+    step_along(delta, eta, nodes);
+  }
+  return std::isfinite(nodes[0][0]);
+}
+
+// Light of no energy has no scale for kerr_passages().
+void KerrPlane::step_along(double delta, double eta, std::array<Node, kOrders>& nodes) const {
+  const LightPath path = kerr_light_path(at(), delta, eta, rings_.outer);
+  const auto theta = static_cast<double>(at().theta);
+  const V3d axis(std::cos(theta), -std::sin(theta), 0),
+      outwards(std::sin(theta), std::cos(theta), 0);
   std::size_t order = 0;
-  for (const KerrPassage& passage : kerr_passages(at(), n, nodes.size()))
-    nodes[order++] = {1 / passage.r, passage.phi, passage.null_time, passage.speed};
-  return order > 0;
+  for (std::size_t k = 1; k < path.places.size() && order < nodes.size(); ++k) {
+    const LightPath::Place &a = path.places[k - 1], &b = path.places[k];
+    if ((a.at.dot(axis) > 0) == (b.at.dot(axis) > 0)) continue;
+    const auto above = [&](double part) { return LightPath::direction(a, b, part).dot(axis); };
+    std::uintmax_t steps = 60;
+    const double t = boost::math::tools::toms748_solve(
+                         above, 0.0, 1.0, boost::math::tools::eps_tolerance<double>(40), steps)
+                         .first,
+                 s = 1 - t;
+    const V3d place = LightPath::direction(a, b, t);
+    nodes[order++] = {LightPath::inverse_radius(a, b, t), std::atan2(place.z, place.dot(outwards)),
+                      a.time * s + b.time * t, (a.slope * s + b.slope * t) * path.rate};
+  }
 }
 
 void KerrPlane::fill(Side& side) {
@@ -163,7 +196,7 @@ KerrPlane::Sight KerrPlane::sight(double delta, double eta) const {
   Sight sight = beginning(delta, eta);
   const KerrGrid::Edge edge = sides_[0].grid.edge(eta);
   sight.to_edge = delta - edge.delta;
-  if (!(sight.energy > 0)) return sight;
+  if (!sight.comes) return sight;
   const Side& side = sides_[sight.to_edge > 0 ? 0 : 1];
   const KerrGrid::Place in = side.grid.place(delta, eta, edge);
   if (!(in.row >= 0)) return sight;

@@ -30,10 +30,11 @@ class KerrPlane {
   };
   struct Crossing {
     // 1/r; the angle from the observer's in the coordinates of light that falls; v less the observer's;
-    // and the speed r' of the photon over |E| r^2.
+    // and the speed r' of the photon over r^2.
     Value w, angle, time, speed;
   };
   struct Sight {
+    bool comes;  // from region I
     double energy, momentum,
         about_axis;  // E, sqrt K and L of light that is one in the tetrad's frame
     double to_edge;  // radians of delta
@@ -41,7 +42,7 @@ class KerrPlane {
     std::array<bool, kOrders> crosses;
     std::array<Crossing, kOrders> at;
   };
-  // Returns what a ray meets; its energy is 0 where light does not come from region I.
+  // Returns what a ray meets.
   Sight sight(double delta, double eta) const;
   // Returns the same from exact rays.
   Sight exact_sight(double delta, double eta) const;
@@ -63,6 +64,7 @@ class KerrPlane {
   Node interpolated(const Side& side, int order, double row, double column, Node* by_row,
                     Node* by_column) const;
   Sight beginning(double delta, double eta) const;
+  void step_along(double delta, double eta, std::array<Node, kOrders>& nodes) const;
   bool exact_nodes(const KerrDirection& n, std::array<Node, kOrders>& nodes) const;
 
   KerrRings rings_;

@@ -54,12 +54,13 @@ struct KerrConstants {
     about_axis =
         sine * (momentum * std::sin(eta) + static_cast<double>(at.hole.spin) * energy * sine);
   }
-  // Light that an observer in the hole gets from its other side does not come from region I.
+  // Light that an observer in the hole gets from its other side does not come from region I.  That of
+  // E < 0 may come from its ergosphere.
   bool comes_from_region_one(const KerrPlace& at) const {
     const auto horizon = static_cast<double>(at.hole.horizon()),
                a = static_cast<double>(at.hole.spin);
-    return energy > 0 && (static_cast<double>(at.r) >= horizon ||
-                          energy * (horizon * horizon + a * a) > a * about_axis);
+    return static_cast<double>(at.r) >= horizon ||
+           energy * (horizon * horizon + a * a) > a * about_axis;
   }
 };
 

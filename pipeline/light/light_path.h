@@ -35,8 +35,8 @@ struct GasView {
 };
 
 struct LightPath {
-  // E and L of light that is one in the frame of the view, or the root of K about a spin.  E > 0: light
-  // of region I.
+  // E and L of light that is one in the frame of the view, or the root of K about a spin.
+  // Without one, light of region I has E > 0.
   double energy = 0, momentum = 0;
   // L about the axis n is n.about.
   V3d about{0, 0, 0};

@@ -6,9 +6,11 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "pipeline/light/kerr_plane.h"
 #include "pipeline/light/kerr_ray.h"
+#include "pipeline/light/kerr_view.h"
 #include "tests/pipeline/render/disc/disc_views.h"
 #include "tests/pipeline/show/show_file.h"
 
@@ -85,6 +87,37 @@ TEST_F(KerrDisc, IsSeenAlongExactRays) {
     }
   }
   EXPECT_GT(seen, 150);
+}
+
+// Light of E < 0 leaves gas in the ergosphere as that of E > 0 does, and is followed in another way.
+TEST(KerrPlane, GoesThroughLightOfNoEnergy) {
+  constexpr double kStep = 1e-4;
+  constexpr int kSteps = 100;
+  constexpr double kEta = -2.2;
+  for (const double r : {1.3, 1.6}) {
+    const KerrPlace at{{0.9L, 0}, r, 1};
+    const KerrPlane plane(at, {static_cast<double>(at.hole.horizon()), 14});
+    double still = std::numbers::pi;
+    while (still > 0 && KerrConstants(at, still, kEta).energy > 0) still -= kStep;
+    ASSERT_GT(still, 0);
+    std::vector<KerrPlane::Crossing> seen;
+    for (int k = -kSteps; k <= kSteps; ++k) {
+      const KerrPlane::Sight sight = plane.exact_sight(still + k * kStep, kEta);
+      ASSERT_TRUE(sight.comes && sight.crosses[0]) << r << ' ' << k;
+      seen.push_back(sight.at[0]);
+    }
+    const auto bend = [&seen](KerrPlane::Value KerrPlane::Crossing::*of) {
+      double worst = 0;
+      for (std::size_t k = 2; k < seen.size(); ++k)
+        worst = std::max(worst, std::abs((seen[k].*of).value - 2 * (seen[k - 1].*of).value +
+                                         (seen[k - 2].*of).value));
+      return worst;
+    };
+    EXPECT_LT(bend(&KerrPlane::Crossing::w), 1e-7) << r;
+    EXPECT_LT(bend(&KerrPlane::Crossing::angle), 1e-3) << r;
+    EXPECT_LT(bend(&KerrPlane::Crossing::time), 5e-3) << r;
+    EXPECT_LT(bend(&KerrPlane::Crossing::speed), 1e-4) << r;
+  }
 }
 
 }  // namespace
