@@ -198,9 +198,11 @@ KerrPlane::Sight KerrPlane::sight(double delta, double eta) const {
   sight.to_edge = delta - edge.delta;
   if (!sight.comes) return sight;
   const Side& side = sides_[sight.to_edge > 0 ? 0 : 1];
-  const KerrGrid::Place in = side.grid.place(delta, eta, edge);
-  if (!(in.row >= 0)) return sight;
-  const double row = std::min(in.row, static_cast<double>(kPlaneRows)),
+  // Next to the edge the first images are as a little farther from it.
+  const double least = side.grid.least_way(edge),
+               way = std::copysign(std::max(std::abs(sight.to_edge), std::abs(least)), least);
+  const KerrGrid::Place in = side.grid.place(edge.delta + way, eta, edge);
+  const double row = std::clamp(in.row, 0.0, static_cast<double>(kPlaneRows)),
                sine = std::max(std::sin(delta), 1e-9);
   const int i = std::min(static_cast<int>(row), kPlaneRows - 1),
             j = static_cast<int>(std::floor(in.column)),

@@ -87,6 +87,19 @@ TEST_F(KerrDisc, IsSeenAlongExactRays) {
     }
   }
   EXPECT_GT(seen, 150);
+  // Next to the edge no image is lost.
+  int beside = 0;
+  for (const double way : {-1e-4, -1e-7, -1e-12, 1e-12, 1e-7, 1e-4})
+    for (double eta = 0; eta < 6; eta += 0.3) {
+      const double delta = kerr_edge_delta(at, eta) + way;
+      const KerrPlane::Sight sight = plane.sight(delta, eta);
+      const double r = kerr_passages(at, {delta, eta}, 1).at(0).r;
+      if (r < s.disc->inner || r > s.disc->outer) continue;
+      ++beside;
+      ASSERT_TRUE(sight.crosses[0]) << way << ' ' << eta;
+      EXPECT_NEAR(sight.at[0].w.value * r, 1, 1e-4) << way << ' ' << eta;
+    }
+  EXPECT_GT(beside, 50);
 }
 
 // Light of E < 0 leaves gas in the ergosphere as that of E > 0 does, and is followed in another way.
