@@ -26,14 +26,15 @@ double read_spin(const Section& s, double charge) {
   const auto read = s.given(
       "spin", s.range("spin").because("a hole that turns the other way has the other end of its "
                                       "axis as `axis`"));
-  if (given && !read) return charge > 1 ? 0 : 0.1;
+  constexpr double kInError = 0.1;  // so that the rest is checked as about a spin
+  if (given && !read) return kInError;
   const double spin = read.value_or(0);
   if (spin == 0) {
     if (const Item* axis = s.find("axis"))
       axis->fail("is that of a hole that spins; give it a spin above 0");
     return 0;
   }
-  if (charge > 1) return given->fail("is not of a hole whose charge exceeds 1"), 0;
+  if (charge > 1) return given->fail("is not of a hole whose charge exceeds 1"), kInError;
   constexpr double kMost = 0.999999;
   if (charge > 0 && spin * spin + charge * charge > kMost * kMost)
     given->fail(fmt::format(
@@ -77,7 +78,7 @@ Spacetime read_spacetime(const Section& s) {
   if (naked && !(charge > 1) && (charge_given || !s.find("charge")))
     s.find("naked")->fail("is for a charge above 1; with less, a horizon hides the singularity");
   const double spin = read_spin(s, charge);
-  if (spin > 0) return SpinningHole{mass.value_or(1), {spin, charge}};
+  if (spin > 0) return SpinningHole{mass.value_or(1), {spin, charge > 1 ? 0 : charge}};
   if (charge > 0) return ChargedHole(mass.value_or(1), charge);
   return Schwarzschild{mass.value_or(1)};
 }

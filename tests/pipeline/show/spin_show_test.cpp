@@ -120,6 +120,12 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   };
   has(complaint("black_hole: {mass_solar: 4, spin: 0.9, charge: 0.8}\n"),
       "black_hole.spin must be at most 0.599998");
+  // What else is said of the hole is of one that spins.
+  const std::string both = complaint(
+      "black_hole: {mass_solar: 4, spin: 0.5, charge: 1.2}\n"
+      "timeline: [{duration_s: 1, trajectory: {type: static, r: 20, latitude_deg: 10}}]\n");
+  has(both, "spin is not of a hole whose charge exceeds 1");
+  EXPECT_EQ(both.find("latitude_deg"), std::string::npos) << both;
   has(complaint("black_hole: {mass_solar: 4, spin: 1}\n"), "spin must be at most 0.999999, got 1");
   has(complaint("black_hole: {mass_solar: 4, spin: -0.5}\n"),
       "spin must be at least 0, got -0.5: a hole that turns the other way has the other end");
