@@ -216,31 +216,21 @@ void KerrPoints::set_box(Cell& cell) const {
 bool KerrPoints::find(const V3d& place, const Cell& cell, Found& at) const {
   // Images on the rim of a cell are found in both.
   constexpr double kRim = 1e-7;
-  constexpr int kMostSlow = 3;
-  double before = HUGE_VAL;
-  int slow = 0;
   for (int step = 0; step < 16; ++step) {
     at.value = chart_.value(at.row, at.column);
-    const V3d off = place - at.value.sky * place.dot(at.value.sky);
-    // Where there is no image, places come no nearer.
-    const double left = off.length2();
-    if (left > before / 4 && ++slow > kMostSlow) return false;
-    before = left;
-    const auto by = parts_along(off, at.value.by_row, at.value.by_column);
+    const auto by = parts_along(place - at.value.sky * place.dot(at.value.sky), at.value.by_row,
+                                at.value.by_column);
     if (!by) return false;
     const auto [by_row, by_column] = *by;
     const double most_rows = 0.6 * cell.half_rows, most_columns = 0.6 * cell.half_columns;
     at.row += std::clamp(by_row, -most_rows, most_rows);
     at.column += std::clamp(by_column, -most_columns, most_columns);
-    const double out = std::max(std::abs(at.row - cell.row) / cell.half_rows,
-                                std::abs(at.column - cell.column) / cell.half_columns) -
-                       1;
-    const double length =
-        std::max(std::abs(by_row) / cell.half_rows, std::abs(by_column) / cell.half_columns);
-    // The next step would be as its square.
-    if (out > (cell.folded ? 1 : std::min(1.0, kRim + 5 * length * length))) return false;
+    const double out_rows = std::abs(at.row - cell.row) - cell.half_rows,
+                 out_columns = std::abs(at.column - cell.column) - cell.half_columns;
+    if (out_rows > cell.half_rows || out_columns > cell.half_columns) return false;
+    // The next step would be its square.
     if (std::abs(by_row) < 1e-5 && std::abs(by_column) < 1e-5)
-      return out < kRim && place.dot(at.value.sky) > 0;
+      return std::max(out_rows, out_columns) < kRim && place.dot(at.value.sky) > 0;
   }
   return false;
 }
