@@ -55,10 +55,6 @@ KerrDirection KerrGrid::direction(int row, int column) const {
 
 double KerrGrid::column_by_eta() const { return columns_ / kTurn; }
 
-double KerrGrid::least_way(const Edge& edge) const {
-  return 2 / (1 + std::exp(-kLeast)) * (end_ - edge.delta);
-}
-
 KerrGrid::Place KerrGrid::place(double delta, double eta, const Edge& edge) const {
   const double way = delta - edge.delta, rest = 2 * (end_ - edge.delta) - way;
   return {(std::log(way / rest) - kLeast) / step_, eta * column_by_eta(),

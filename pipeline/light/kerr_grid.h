@@ -60,8 +60,6 @@ class KerrGrid {
   struct Place {
     double row, column, row_by_delta, row_by_eta;
   };
-  // Returns how far from the edge the first row is.
-  double least_way(const Edge& edge) const;
   Place place(double delta, double eta, const Edge& edge) const;
   double column_by_eta() const;
   // Returns the direction of a place, and the derivative of delta.

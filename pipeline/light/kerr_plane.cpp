@@ -4,16 +4,16 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
+#include <span>
 
 #include "pipeline/light/kerr_ray.h"
 #include "pipeline/light/kerr_request.h"
 #include "pipeline/light/kerr_view.h"
 #include "pipeline/light/lagrange.h"
 #include "pipeline/light/light_path.h"
+#include "pipeline/light/sphere_rays.h"
 
 namespace domefall {
 namespace {
@@ -24,8 +24,31 @@ constexpr int kPlaneRows = 128, kPlaneColumns = 192;
 constexpr int kPlanePoints = 6;
 // Cells are rough where polynomials of four and of six nodes differ by this part of w.
 constexpr double kMostOff = 1e-4;
-// Light with less of its own energy is followed in steps.
+// Light with less of its own energy, which kerr_passages() count by, is followed in steps.
 constexpr double kLeastEnergy = 1e-3;
+
+// Finds where a ray crosses the equator, as the nodes have it.
+void step_along(const KerrPlace& at, double delta, double eta, double outer,
+                std::span<std::array<double, 4>> nodes) {
+  constexpr double kEnough = 1e-12;
+  const LightPath path = kerr_light_path(at, delta, eta, outer);
+  const double sine = std::sin(static_cast<double>(at.theta)),
+               cosine = std::cos(static_cast<double>(at.theta));
+  const V3d axis(cosine, -sine, 0), outwards(sine, cosine, 0);
+  std::size_t order = 0;
+  for (std::size_t k = 1; k < path.places.size() && order < nodes.size(); ++k) {
+    const LightPath::Place &a = path.places[k - 1], &b = path.places[k];
+    const double from = a.at.dot(axis), to = b.at.dot(axis);
+    if ((from > 0) == (to > 0)) continue;
+    const V3d side = axis * (from > 0 ? 1 : -1);
+    const double t = root_between(0, std::abs(from), 1, -std::abs(to), kEnough, [&](double part) {
+      return LightPath::direction(a, b, part).dot(side);
+    });
+    const V3d place = LightPath::direction(a, b, t);
+    nodes[order++] = {LightPath::inverse_radius(a, b, t), std::atan2(place.z, place.dot(outwards)),
+                      std::lerp(a.time, b.time, t), std::lerp(a.slope, b.slope, t) * path.rate};
+  }
+}
 
 }  // namespace
 
@@ -51,7 +74,7 @@ std::shared_ptr<const KerrPlane> KerrPlaneKeeper::plane(const KerrPlace& at,
 KerrPlane::Sight KerrPlane::beginning(double delta, double eta) const {
   const KerrConstants of(at(), delta, eta);
   Sight sight{};
-  sight.comes = of.comes_from_region_one(at());
+  sight.from_region_one = of.comes_from_region_one(at());
   sight.energy = of.energy, sight.momentum = of.momentum, sight.about_axis = of.about_axis;
   return sight;
 }
@@ -62,37 +85,15 @@ bool KerrPlane::exact_nodes(const KerrDirection& n, std::array<Node, kOrders>& n
   const auto delta = static_cast<double>(kerr_delta(at(), n));
   const auto eta = static_cast<double>(n.eta);
   const Sight ray = beginning(delta, eta);
-  if (!ray.comes) return false;
+  if (!ray.from_region_one) return false;
   if (ray.energy > kLeastEnergy) {
     std::size_t order = 0;
     for (const KerrPassage& passage : kerr_passages(at(), n, nodes.size()))
       nodes[order++] = {1 / passage.r, passage.phi, passage.null_time, passage.speed * ray.energy};
   } else {
-    step_along(delta, eta, nodes);
+    step_along(at(), delta, eta, rings_.outer, nodes);
   }
   return std::isfinite(nodes[0][0]);
-}
-
-// Light of no energy has no scale for kerr_passages().
-void KerrPlane::step_along(double delta, double eta, std::array<Node, kOrders>& nodes) const {
-  const LightPath path = kerr_light_path(at(), delta, eta, rings_.outer);
-  const auto theta = static_cast<double>(at().theta);
-  const V3d axis(std::cos(theta), -std::sin(theta), 0),
-      outwards(std::sin(theta), std::cos(theta), 0);
-  std::size_t order = 0;
-  for (std::size_t k = 1; k < path.places.size() && order < nodes.size(); ++k) {
-    const LightPath::Place &a = path.places[k - 1], &b = path.places[k];
-    if ((a.at.dot(axis) > 0) == (b.at.dot(axis) > 0)) continue;
-    const auto above = [&](double part) { return LightPath::direction(a, b, part).dot(axis); };
-    std::uintmax_t steps = 60;
-    const double t = boost::math::tools::toms748_solve(
-                         above, 0.0, 1.0, boost::math::tools::eps_tolerance<double>(40), steps)
-                         .first,
-                 s = 1 - t;
-    const V3d place = LightPath::direction(a, b, t);
-    nodes[order++] = {LightPath::inverse_radius(a, b, t), std::atan2(place.z, place.dot(outwards)),
-                      a.time * s + b.time * t, (a.slope * s + b.slope * t) * path.rate};
-  }
 }
 
 void KerrPlane::fill(Side& side) {
@@ -196,12 +197,11 @@ KerrPlane::Sight KerrPlane::sight(double delta, double eta) const {
   Sight sight = beginning(delta, eta);
   const KerrGrid::Edge edge = sides_[0].grid.edge(eta);
   sight.to_edge = delta - edge.delta;
-  if (!sight.comes) return sight;
+  if (!sight.from_region_one) return sight;
   const Side& side = sides_[sight.to_edge > 0 ? 0 : 1];
-  // Next to the edge the first images are as a little farther from it.
-  const double least = side.grid.least_way(edge),
-               way = std::copysign(std::max(std::abs(sight.to_edge), std::abs(least)), least);
-  const KerrGrid::Place in = side.grid.place(edge.delta + way, eta, edge);
+  KerrGrid::Place in = side.grid.place(delta, eta, edge);
+  // Next to the edge the first images are as in the first row.
+  if (!(in.row >= 0)) in = side.grid.place(side.grid.direction(0.0, in.column).delta, eta, edge);
   const double row = std::clamp(in.row, 0.0, static_cast<double>(kPlaneRows)),
                sine = std::max(std::sin(delta), 1e-9);
   const int i = std::min(static_cast<int>(row), kPlaneRows - 1),

@@ -34,7 +34,7 @@ class KerrPlane {
     Value w, angle, time, speed;
   };
   struct Sight {
-    bool comes;  // from region I
+    bool from_region_one;
     double energy, momentum,
         about_axis;  // E, sqrt K and L of light that is one in the tetrad's frame
     double to_edge;  // radians of delta
@@ -64,7 +64,6 @@ class KerrPlane {
   Node interpolated(const Side& side, int order, double row, double column, Node* by_row,
                     Node* by_column) const;
   Sight beginning(double delta, double eta) const;
-  void step_along(double delta, double eta, std::array<Node, kOrders>& nodes) const;
   bool exact_nodes(const KerrDirection& n, std::array<Node, kOrders>& nodes) const;
 
   KerrRings rings_;

@@ -136,7 +136,7 @@ double DiscPass::KerrStrip::gather_pixel(int k) {
   const Pixel& pixel = at_[static_cast<std::size_t>(k)];
   const double off = std::abs(pixel.sight.to_edge) / pixel.width, frequency = rays_.frequency[k];
   if (off > kNearEdge) {
-    if (!pixel.sight.comes) return 1;
+    if (!pixel.sight.from_region_one) return 1;
     return gather_piece(k, {pixel.sight, pixel.width, pixel.width, 1, frequency});
   }
   const int pieces =
@@ -149,8 +149,9 @@ double DiscPass::KerrStrip::gather_pixel(int k) {
     const double weight = (kReach - std::abs(place(n))) / sum;
     const double delta = std::clamp(pixel.delta + pixel.width * place(n), 1e-9, pi - 1e-9);
     const KerrPlane::Sight sight = plane_.sight(delta, pixel.eta);
-    left += sight.comes ? weight * gather_piece(k, {sight, high, pixel.width, weight, frequency})
-                        : weight;
+    left += sight.from_region_one
+                ? weight * gather_piece(k, {sight, high, pixel.width, weight, frequency})
+                : weight;
   }
   return left;
 }
@@ -160,7 +161,7 @@ DiscPass::Strip::Sighting DiscPass::KerrStrip::sighting(int k) const {
   const double edge = std::abs(pixel.sight.to_edge) / pixel.width;
   Sighting seen;
   seen.clearance = std::min(edge, kFar);
-  if (!pixel.sight.comes) {
+  if (!pixel.sight.from_region_one) {
     seen.sight = kNoLight;
     return seen;
   }
@@ -218,7 +219,7 @@ std::vector<DiscPass::Place> DiscPass::KerrStrip::places(const CameraDirection& 
   locate(&n, &width, 1);
   const Pixel& pixel = at_[0];
   std::vector<Place> places;
-  if (!pixel.sight.comes) return places;
+  if (!pixel.sight.from_region_one) return places;
   const Piece piece{pixel.sight, pixel.width, pixel.width, 1, rays_.frequency[0]};
   for (int order = 0; order < KerrPlane::kOrders; ++order) {
     if (!pixel.sight.crosses[static_cast<std::size_t>(order)]) continue;

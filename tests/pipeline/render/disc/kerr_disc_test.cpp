@@ -116,7 +116,7 @@ TEST(KerrPlane, GoesThroughLightOfNoEnergy) {
     std::vector<KerrPlane::Crossing> seen;
     for (int k = -kSteps; k <= kSteps; ++k) {
       const KerrPlane::Sight sight = plane.exact_sight(still + k * kStep, kEta);
-      ASSERT_TRUE(sight.comes && sight.crosses[0]) << r << ' ' << k;
+      ASSERT_TRUE(sight.from_region_one && sight.crosses[0]) << r << ' ' << k;
       seen.push_back(sight.at[0]);
     }
     const auto bend = [&seen](KerrPlane::Value KerrPlane::Crossing::*of) {
