@@ -38,6 +38,7 @@ std::optional<TimedTrajectory> falling(const Section& s, const Stage& stage, con
   if (!orbit) return std::nullopt;
   // What begins at the orbit's own beginning does so at 0 exactly.
   const auto from_r = s.given("from_r");
+  if (s.find("from_r") && !from_r) return std::nullopt;
   const bool there = from_r && *from_r == r && !s.find("from_leg") && !s.find("from_tau_m");
   const auto timing =
       there ? read_end(s, stage, *orbit, 0, defaults) : read_timing(s, stage, *orbit, defaults);

@@ -126,6 +126,11 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
       "timeline: [{duration_s: 1, trajectory: {type: static, r: 20, latitude_deg: 10}}]\n");
   has(both, "spin is not of a hole whose charge exceeds 1");
   EXPECT_EQ(both.find("latitude_deg"), std::string::npos) << both;
+  const std::string begin = complaint(
+      "black_hole: {mass_solar: 4, spin: 0.5}\n"
+      "timeline: [{duration_s: 1, trajectory: {type: infall, rest_r: 6, from_r: 0, to_r: 3}}]\n");
+  has(begin, "from_r must be at least 1e-6");
+  EXPECT_EQ(begin.find("from_r"), begin.rfind("from_r")) << begin;
   has(complaint("black_hole: {mass_solar: 4, spin: 1}\n"), "spin must be at most 0.999999, got 1");
   has(complaint("black_hole: {mass_solar: 4, spin: -0.5}\n"),
       "spin must be at least 0, got -0.5: a hole that turns the other way has the other end");
