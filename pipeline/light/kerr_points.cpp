@@ -22,6 +22,11 @@ constexpr double kLost = 1e-2;
 // Cells are halved, from kLargest down to kSmallest, where a caustic goes through them, or where they are
 // not even to this part of their size.
 constexpr double kUneven = 0.4, kLargest = 2, kSmallest = 0.125;
+// Where the parabolas of a cell have an image so far from its middle, in halves of it, the chart may have
+// one in it.
+constexpr double kNearby = 1.5;
+// So it may where they come this near to a place, as a part of the cell's size, and have no image.
+constexpr double kByCaustic = 0.05;
 // The smallest cells are this long at most (radians), so that those where light winds up faster are left
 // out, too.
 constexpr double kWound = 0.5 / kSmallest;
@@ -58,6 +63,22 @@ struct KerrPoints::Net {
     return most;
   }
 };
+
+KerrChart::Value KerrPoints::Cell::value(double at_row, double at_column) const {
+  const auto u = static_cast<float>((at_row - row) / half_rows),
+             v = static_cast<float>((at_column - column) / half_columns);
+  const std::array<float, 3> by_u{u * (u - 1) / 2, 1 - u * u, u * (u + 1) / 2},
+      by_v{v * (v - 1) / 2, 1 - v * v, v * (v + 1) / 2}, slope_u{u - 0.5F, -2 * u, u + 0.5F},
+      slope_v{v - 0.5F, -2 * v, v + 0.5F};
+  Imath::V3f sky(0, 0, 0), by_row_there(0, 0, 0), by_column_there(0, 0, 0);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      sky += places[i][j] * (by_u[i] * by_v[j]);
+      by_row_there += places[i][j] * (slope_u[i] * by_v[j]);
+      by_column_there += places[i][j] * (by_u[i] * slope_v[j]);
+    }
+  return {middle + V3d(sky), V3d(by_row_there) / half_rows, V3d(by_column_there) / half_columns};
+}
 
 KerrPoints::Sample KerrPoints::sample(double row, double column) const {
   const KerrChart::Direction n = chart_.direction(row, column);
@@ -125,6 +146,9 @@ void KerrPoints::add(const Net& net) {
   cell.half_rows = net.half_rows, cell.half_columns = net.half_columns;
   cell.folded = turned && straight;
   set_inverse(cell, net);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      cell.places[i][j] = Imath::V3f(net.samples[i][j].at.sky - cell.middle);
   const bool rows = net.half_rows > kSmallest / 2, columns = net.half_columns > kSmallest / 2;
   const bool uneven = !(cell.off_row < 2 * kUneven * net.half_rows &&
                         cell.off_column < 2 * kUneven * net.half_columns);
@@ -212,8 +236,32 @@ void KerrPoints::set_box(Cell& cell) const {
   cell.off_column = static_cast<float>(1.2 * short_side);
 }
 
+// Newton's method on the parabolas through the places of a cell, which are much quicker than the chart and
+// near enough to tell that a place has no image there.
+bool KerrPoints::approach(const V3d& place, const Cell& cell, Found& at) const {
+  double nearest = HUGE_VAL;
+  for (int step = 0; step < 8; ++step) {
+    const KerrChart::Value value = cell.value(at.row, at.column);
+    const V3d rest = place - value.sky * place.dot(value.sky);
+    const auto by = parts_along(rest, value.by_row, value.by_column);
+    nearest = std::min(nearest, rest.length());
+    if (!by) return false;
+    const auto [by_row, by_column] = *by;
+    const double most_rows = 0.6 * cell.half_rows, most_columns = 0.6 * cell.half_columns;
+    at.row += std::clamp(by_row, -most_rows, most_rows);
+    at.column += std::clamp(by_column, -most_columns, most_columns);
+    const double out_rows = std::abs(at.row - cell.row) / cell.half_rows,
+                 out_columns = std::abs(at.column - cell.column) / cell.half_columns;
+    if (out_rows > 2 || out_columns > 2) return false;
+    if (std::abs(by_row) < 0.1 * cell.half_rows && std::abs(by_column) < 0.1 * cell.half_columns)
+      return out_rows < kNearby && out_columns < kNearby;
+  }
+  return nearest < kByCaustic * cell.radius;
+}
+
 // Newton's method from one place of a cell.  Returns whether it comes to an image in the cell.
 bool KerrPoints::find(const V3d& place, const Cell& cell, Found& at) const {
+  if (!approach(place, cell, at)) return false;
   // Images on the rim of a cell are found in both.
   constexpr double kRim = 1e-7;
   for (int step = 0; step < 16; ++step) {

@@ -2,6 +2,7 @@
 // by where they lie on the sky, and in each that may hold a point Newton's method finds its image.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "pipeline/light/kerr_chart.h"
@@ -36,6 +37,10 @@ class KerrPoints : public SkyPoints {
     double row, column;              // of its middle, in cells of the chart
     double half_rows, half_columns;  // of its sides
     bool folded = false;             // whether a caustic goes through it
+    // Its corners and middles, by row and by column, from the middle on.
+    std::array<std::array<Imath::V3f, 3>, 3> places{};
+
+    KerrChart::Value value(double row, double column) const;  // by the parabolas through them
   };
   struct Found {
     double row, column;
@@ -49,6 +54,7 @@ class KerrPoints : public SkyPoints {
   void set_inverse(Cell& cell, const Net& net) const;
   void set_box(Cell& cell) const;
   void put_in_bins(const Net& net);
+  bool approach(const V3d& place, const Cell& cell, Found& at) const;
   bool find(const V3d& place, const Cell& cell, Found& at) const;
 
   const KerrChart& chart_;
