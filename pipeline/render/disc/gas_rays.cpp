@@ -123,7 +123,8 @@ V3d GasRays::direction_of(double alpha, const V3d& across) const {
   return across * at.sine + V3d(counts_from_hole() ? -at.cosine : at.cosine, 0, 0);
 }
 
-// Returns into how many steps a part of a path is divided: none where no gas is.
+// Returns into how many steps a part of a path is divided, two for each of Gauss's pairs: none where no
+// gas is.
 int GasRays::steps_between(const LightPath::Place& a, const LightPath::Place& b,
                            const Ray& ray) const {
   const double length = (b.at - a.at).length();
@@ -138,7 +139,7 @@ int GasRays::steps_between(const LightPath::Place& a, const LightPath::Place& b,
     longest = std::min(longest, disc_step_);
   // Where light moves along r, gas changes as fast by that.
   const double onward = std::max(length, std::abs(b.w - a.w) / std::max(a.w, b.w));
-  return static_cast<int>(std::ceil((spin_ ? onward : b.psi - a.psi) / longest));
+  return 2 * static_cast<int>(std::ceil((spin_ ? onward : b.psi - a.psi) / (2 * longest)));
 }
 
 // Above the plane the circles of gas are smaller, and gas is slower against who rests.  Returns by what
@@ -217,7 +218,10 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
     const double from = a.psi + (a.w > horizon ? crossed : 0),
                  to = std::min(b.w > horizon ? a.psi + crossed : b.psi, until), way = to - from;
     for (int n = 0; n < steps; ++n) {
-      const double psi = from + way * (n + 0.5) / steps, part = (psi - a.psi) / (b.psi - a.psi);
+      // Gauss's two places of each pair of steps.
+      const double aside = (n % 2 == 0 ? -1 : 1) / std::sqrt(3.0);
+      const double psi = from + way * (n / 2 * 2 + 1 + aside) / steps,
+                   part = (psi - a.psi) / (b.psi - a.psi);
       const double w = LightPath::inverse_radius(a, b, part);
       if (!(w > least && w < horizon)) continue;
       Layer one = layer(ray, {psi, way / steps, LightPath::direction(a, b, part), 1 / w,

@@ -221,12 +221,12 @@ TEST(GasRays, AreTheSumsOfSmallSteps) {
       const double off = std::abs(c.seen - c.summed) /
                          (c.summed + 0.01 * std::max(brightest, views[v].disc ? 1e-5 : 0.1));
       errors.push_back(off);
-      EXPECT_LT(off, 1e-2) << "view " << v << ": " << c.seen << " instead of " << c.summed;
+      EXPECT_LT(off, 5e-3) << "view " << v << ": " << c.seen << " instead of " << c.summed;
     }
   }
   std::sort(errors.begin(), errors.end());
-  EXPECT_LT(errors[errors.size() / 2], 5e-4);
-  EXPECT_LT(errors[errors.size() * (kSanitized ? 8 : 19) / (kSanitized ? 10 : 20)], 2e-3);
+  EXPECT_LT(errors[errors.size() / 2], 1e-4);
+  EXPECT_LT(errors[errors.size() * (kSanitized ? 8 : 19) / (kSanitized ? 10 : 20)], 1.5e-3);
 }
 
 // A thin slab is the disc without height, but for its own shadow and what the plane is bent by.
