@@ -15,13 +15,8 @@ TetradVector boosted(const TetradVector& u, const TetradVector& x) {
   return {u.t * x.t - along, x.s + u.s * (along / (u.t + 1) - x.t)};
 }
 
-// A Turn is a step of the view, by delta and across that.
-struct Turn {
-  double by_delta, across;
-};
+}  // namespace
 
-// Returns the view after a part of a turn.  Rays that wind up change by factors as they come nearer to
-// the silhouette's edge, and so are turned along it and, by a part of their distance, away from it.
 V3d turned_view(const KerrPass& pass, const KerrPlace& at, const Turn& turn, double part) {
   constexpr double kMost = 0.2, kMostOfDistance = 0.5, kWound = 2.5, kSmall = 1e-4;
   const KerrDirection n = kerr_direction_of(pass.view);
@@ -38,8 +33,6 @@ V3d turned_view(const KerrPass& pass, const KerrPlace& at, const Turn& turn, dou
                away = std::clamp(x - slope * by_eta, -most, most);
   return kerr_view(kerr_edge_delta(at, eta + by_eta) + from_edge + away, eta + by_eta);
 }
-
-}  // namespace
 
 KerrBodyRays::KerrBodyRays(const KerrPlace& at, double null_time, const BodyMotion& motion)
     : at_(at), null_time_(null_time), motion_(motion) {
@@ -61,12 +54,20 @@ std::optional<KerrPass> KerrBodyRays::pass(const V3d& view, double mino, double 
   const auto there = event ? body(tau) : std::nullopt;
   if (!there) return std::nullopt;
   const TetradVector& u = there->velocity;
-  const TetradVector light = boosted(u, event->light),
-                     apart = boosted(
-                         u, tetrad_vector(at_.hole, there->at, there->at.r - event->at.r,
-                                          there->at.place - event->at.place,
-                                          there->null_time - null_time_ - event->null_time)),
-                     by_delta = boosted(u, event->by_delta), across = boosted(u, event->across);
+  // Both are told along axes of their own, which turn fast next to the hole's axis.
+  const M33d own = kerr_axes(there->at.place), theirs = kerr_axes(event->at.place);
+  const auto in_body = [&](const TetradVector& x) {
+    return boosted(u, {x.t, apply_transposed(own, apply(theirs, x.s))});
+  };
+  // Along a straight line in r and the place, as it is far from the hole.
+  const double r = there->at.r;
+  const V3d way = there->at.place * r - event->at.place * event->at.r;
+  const double by_r = way.dot(there->at.place),
+               later = there->null_time - null_time_ - event->null_time;
+  const TetradVector light = in_body(event->light), by_delta = in_body(event->by_delta),
+                     across = in_body(event->across),
+                     apart = boosted(u, tetrad_vector(at_.hole, there->at, by_r, way / r,
+                                                      later - (r - event->at.r) + by_r));
   const V3d k = light.s / light.t;
   KerrPass pass{};
   pass.view = view, pass.mino = mino, pass.tau = tau;
@@ -86,7 +87,7 @@ std::optional<KerrPass> KerrBodyRays::pass(const V3d& view, double mino, double 
 }
 
 std::optional<KerrPass> KerrBodyRays::nearest(const V3d& view, double mino, double tau) const {
-  constexpr int kMost = 8;
+  constexpr int kMost = 32;  // at a large body a step leaves a fourth of the way
   constexpr double kEnough = 1e-7;
   std::optional<KerrPass> found;
   for (int i = 0; i < kMost; ++i) {

@@ -61,6 +61,14 @@ class KerrBodyRays {
   M33d axes_;
 };
 
+// A Turn is a step of the view, by delta and across that (radians).
+struct Turn {
+  double by_delta, across;
+};
+// Returns the view after a part of a turn.  Rays that wind up change by factors as they come nearer to
+// the silhouette's edge, and so are turned along it and, by a part of their distance, away from it.
+V3d turned_view(const KerrPass& pass, const KerrPlace& at, const Turn& turn, double part);
+
 // A KerrStretch is by how much a ray moves at the body for each angle of view, by its singular values.
 struct KerrStretch {
   double longer, shorter;         // M

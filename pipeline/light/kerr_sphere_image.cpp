@@ -42,6 +42,14 @@ Shown shown_of_disc(double x, double y, double half_x, double half_y) {
   return shown;
 }
 
+// Whether a ray is that of one of these images.
+bool is_in(const KerrPass& pass, std::span<const BodyImage> images, double near, double radius) {
+  return std::ranges::any_of(images, [&](const BodyImage& image) {
+    return (image.direction - pass.view).length() < near &&
+           std::abs(image.proper_time - pass.tau) < 2 * radius + 0.1;
+  });
+}
+
 class SphereNet {
  public:
   SphereNet(const KerrBodyRays& rays, const KerrPass& middle, double radius, double side)
@@ -67,13 +75,6 @@ class SphereNet {
     const double x = i * side_, y = j * side_;
     return side_ / (1 + (x * x + y * y) / 4);
   }
-  bool is_in(const KerrPass& pass, std::span<const BodyImage> images) const {
-    return std::ranges::any_of(images, [&](const BodyImage& image) {
-      return (image.direction - pass.view).length() < side_ &&
-             std::abs(image.proper_time - pass.tau) < 2 * radius_ + 0.1;
-    });
-  }
-
   const KerrBodyRays& rays_;
   const KerrPass& middle_;
   double radius_, side_;
@@ -107,7 +108,7 @@ std::optional<std::vector<SpherePiece>> SphereNet::pieces(std::span<const BodyIm
     const Shown shown = shown_of_disc(place.dot(stretch.along), place.dot(stretch.across),
                                       stretch.longer * half, stretch.shorter * half);
     if (!(shown.part > 0)) continue;
-    if (is_in(*pass, earlier)) return std::nullopt;
+    if (is_in(*pass, earlier, side_, radius_)) return std::nullopt;
     pieces.push_back(piece_of(rays_, *pass, place, std::max(shown.cosine, kLeastCosine),
                               shown.part * side * side, 2 * stretch.longer * half));
     for (int i = -1; i <= 1; ++i)
@@ -118,33 +119,100 @@ std::optional<std::vector<SpherePiece>> SphereNet::pieces(std::span<const BodyIm
   return pieces;
 }
 
-// Returns the image to first order: strips across its longer side, or nothing where that is no good.
-std::vector<SpherePiece> ellipse(const KerrBodyRays& rays, const KerrPass& middle, double radius,
-                                 double spacing) {
-  constexpr double kLongest = 0.3;
-  const KerrStretch stretch = kerr_stretch(middle);
-  const double longer = radius / stretch.shorter, shorter = radius / stretch.longer;
-  if (!(longer < kLongest)) return {};
-  const auto count = [&](double length) {
-    return std::max(1, static_cast<int>(std::ceil(length / spacing)));
-  };
+// A thin image of light that winds around the hole lies along the silhouette's edge.  A Ribbon is its line
+// in the middle, as rays that are off the sphere's centre only along the image, beside which the lens is
+// taken to first order.
+class Ribbon {
+ public:
+  Ribbon(const KerrBodyRays& rays, const KerrPass& middle, double radius, double spacing)
+      : rays_(rays), radius_(radius), spacing_(spacing) {
+    constexpr double kStrips = 12;
+    const double length = radius / kerr_stretch(middle).shorter;
+    step_ = std::min(spacing, std::max(length / kStrips, 1e-3 * spacing));
+    line_.push_back(middle);
+    const bool ring = go(1);
+    std::ranges::reverse(line_);
+    if (!ring) go(-1);
+  }
+
+  const std::vector<KerrPass>& line() const { return line_; }
+  double step() const { return step_; }
+  std::vector<SpherePiece> pieces() const;
+
+ private:
+  // Goes on from the last ray to the end of the image.  Returns whether that is a ring.
+  bool go(double sense);
+  std::optional<KerrPass> next(const KerrPass& from, const V3d& way) const;
+  // Where a ray passes the sphere across the ribbon's line, in radii.
+  double place(const KerrPass& pass) const {
+    return -pass.off.dot(kerr_stretch(pass).across) / radius_;
+  }
+
+  const KerrBodyRays& rays_;
+  double radius_, spacing_, step_ = 0;
+  std::vector<KerrPass> line_;
+};
+
+Turn turn_of(const KerrPass& pass, const V3d& way) {
+  const KerrDirection n = kerr_direction_of(pass.view);
+  const ViewAxes axes(static_cast<double>(n.delta), static_cast<double>(n.eta));
+  return {way.dot(axes.by_delta), way.dot(axes.across)};
+}
+
+bool Ribbon::go(double sense) {
+  V3d way = kerr_stretch(line_.back()).shorter_view * sense;
+  const V3d first = line_.back().view;
+  const std::size_t begun = line_.size(),
+                    most = begun + static_cast<std::size_t>(2 * std::numbers::pi / step_);
+  while (line_.size() < most) {
+    const auto pass = next(line_.back(), way * step_);
+    if (!pass || !(std::abs(place(*pass)) < 1)) return false;
+    const V3d& onward = kerr_stretch(*pass).shorter_view;
+    way = onward * (onward.dot(pass->view - line_.back().view) < 0 ? -1 : 1);
+    line_.push_back(*pass);
+    if (line_.size() > begun + 4 && (pass->view - first).length() < step_) return true;
+  }
+  return true;
+}
+
+std::optional<KerrPass> Ribbon::next(const KerrPass& from, const V3d& way) const {
+  constexpr int kMost = 16;
+  constexpr double kEnough = 3e-3;
+  V3d view = turned_view(from, rays_.at(), turn_of(from, way), 1);
+  std::optional<KerrPass> pass;
+  for (int k = 0; k < kMost; ++k) {
+    pass = rays_.nearest(view, from.mino, from.tau);
+    if (!pass) return std::nullopt;
+    const KerrStretch stretch = kerr_stretch(*pass);
+    const double off = pass->off.dot(stretch.along);
+    if (std::abs(off) < kEnough * radius_) return pass;
+    view = turned_view(*pass, rays_.at(),
+                       turn_of(*pass, stretch.longer_view * (off / stretch.longer)), 1);
+  }
+  return std::nullopt;
+}
+
+std::vector<SpherePiece> Ribbon::pieces() const {
   std::vector<SpherePiece> pieces;
-  const int strips = std::max(8, count(2 * longer));
-  for (int k = 0; k < strips; ++k) {
-    const double t = (2 * k + 1.0) / strips - 1, chord = std::sqrt((1 - t) * (1 + t)),
-                 half = shorter * chord;
-    const int parts = count(2 * half);
+  for (std::size_t k = 0; k < line_.size(); ++k) {
+    const KerrPass& middle = line_[k];
+    const KerrStretch stretch = kerr_stretch(middle);
+    const auto to = [&](std::size_t other) { return (line_[other].view - middle.view).length(); };
+    const double before = k > 0 ? to(k - 1) : step_,
+                 after = k + 1 < line_.size() ? to(k + 1) : step_, length = (before + after) / 2;
+    const double t = place(middle), chord = std::sqrt((1 - t) * (1 + t)),
+                 half = radius_ * chord / stretch.longer;
+    const int parts = std::max(1, static_cast<int>(std::ceil(2 * half / spacing_)));
     for (int j = 0; j < parts; ++j) {
       const double u = (2 * j + 1.0) / parts - 1;
       KerrPass pass = middle;
       pass.view =
-          (middle.view + stretch.shorter_view * (t * longer) + stretch.longer_view * (u * half))
-              .normalized();
+          turned_view(middle, rays_.at(), turn_of(middle, stretch.longer_view * (u * half)), 1);
       const double cosine =
           chord * (parts > 1 ? std::sqrt((1 - u) * (1 + u)) : std::numbers::pi / 4);
-      pieces.push_back(piece_of(rays, pass, stretch.across * t + stretch.along * (u * chord),
-                                cosine, 2 * longer / strips * 2 * half / parts,
-                                spacing * stretch.longer / radius));
+      pieces.push_back(piece_of(rays_, pass, stretch.across * t + stretch.along * (u * chord),
+                                cosine, length * 2 * half / parts,
+                                spacing_ * stretch.longer / radius_));
     }
   }
   return pieces;
@@ -164,10 +232,17 @@ std::vector<SpherePiece> kerr_image_of_sphere(const KerrPlace& at, double null_t
                side = std::min(least, kerr_size_of_sphere(image, radius) / kAcross);
   const KerrDirection n = kerr_direction_of(image.direction);
   const auto delta = static_cast<double>(n.delta), eta = static_cast<double>(n.eta);
-  if (middle->event.swept > kWound && std::abs(delta - kerr_edge_delta(at, eta)) < kNarrow * side)
-    return ellipse(rays, *middle, radius, least);
+  std::vector<SpherePiece> one_with_another{
+      {{{image.direction}, image.frequency_ratio, 0}, 1, image.direction}};
+  if (middle->event.swept > kWound && std::abs(delta - kerr_edge_delta(at, eta)) < kNarrow * side) {
+    const Ribbon ribbon(rays, *middle, radius, least);
+    const bool known = std::ranges::any_of(ribbon.line(), [&](const KerrPass& pass) {
+      return is_in(pass, earlier, ribbon.step(), radius);
+    });
+    return known ? one_with_another : ribbon.pieces();
+  }
   if (auto pieces = SphereNet(rays, *middle, radius, side).pieces(earlier)) return *pieces;
-  return {SpherePiece{{{image.direction}, image.frequency_ratio, 0}, 1, image.direction}};
+  return one_with_another;
 }
 
 }  // namespace domefall

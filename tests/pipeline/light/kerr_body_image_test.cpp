@@ -181,6 +181,12 @@ TEST(KerrBodyImages, AreSeenWithinTheHole) {
   for (const BodyImage& image : within) EXPECT_TRUE(std::isfinite(image.frequency_ratio));
 }
 
+double light_of(const std::vector<SpherePiece>& pieces) {
+  double sum = 0;
+  for (const SpherePiece& piece : pieces) sum += piece.at.amplification;
+  return sum;
+}
+
 // A sphere's image has the light of its first order where it is small, and is an arc behind the hole.
 TEST(KerrBodyImages, OfSpheresAreTracedRayByRay) {
   const KerrPlace at{{0.9L, 0}, 20, 1.3};
@@ -191,14 +197,65 @@ TEST(KerrBodyImages, OfSpheresAreTracedRayByRay) {
   for (std::size_t k = 0; k < 2; ++k) {
     const auto pieces = kerr_image_of_sphere(at, 10, motion, images.at(k), {}, kRadius,
                                              [](const V3d&) { return 1e-4; });
-    double sum = 0;
     for (const SpherePiece& piece : pieces) {
-      sum += piece.at.amplification;
       EXPECT_NEAR(piece.place.length(), 1, 1e-9);
       EXPECT_NEAR(piece.at.frequency_ratio / images[k].frequency_ratio, 1, 0.02);
     }
-    EXPECT_NEAR(sum / (images[k].solid_angle_per_area * pi * kRadius * kRadius), 1, 0.01);
+    EXPECT_NEAR(light_of(pieces) / (images[k].solid_angle_per_area * pi * kRadius * kRadius), 1,
+                0.01);
   }
+}
+
+// Over the axis, where the tetrads of places turn by all angles, nothing changes fast.
+TEST(KerrBodyImages, AreSeenOnTheAxis) {
+  const KerrPlace at{{0.9L, 0}, 30, 1.2};
+  constexpr double kRadius = 0.5;
+  const auto seen = [&](double theta) {
+    const BodyMotion motion = circling(at, {at.hole, 10, theta, 0}, 0.3);
+    auto images = kerr_body_images(at, 0, motion, kRadius);
+    for (std::size_t k = 0; k < std::min<std::size_t>(images.size(), 2); ++k) {
+      const double first_order = images[k].solid_angle_per_area * pi * kRadius * kRadius;
+      const auto pieces = kerr_image_of_sphere(at, 0, motion, images[k], {}, kRadius,
+                                               [](const V3d&) { return 1e-3; });
+      EXPECT_NEAR(light_of(pieces) / first_order, 1, 0.03) << theta << ' ' << k;
+    }
+    return images;
+  };
+  const auto beside = seen(0.02);
+  ASSERT_GE(beside.size(), 3U);
+  for (const double theta : {1e-3, 1e-7, 0.0}) {
+    const auto images = seen(theta);
+    ASSERT_EQ(images.size(), beside.size()) << theta;
+    for (std::size_t k = 0; k < images.size(); ++k)
+      EXPECT_NEAR(images[k].solid_angle_per_area / beside[k].solid_angle_per_area, 1, 0.03);
+  }
+}
+
+// A line along the edge has the light of the image that its rays make one by one.
+TEST(KerrBodyImages, OfWoundLightFollowTheEdge) {
+  const KerrPlace at{{0.9L, 0}, 30, 1.4};
+  constexpr double kRadius = 1;
+  const BodyMotion motion = circling(at, free_circle(at.hole, 8), 150 * pi / 180);
+  const auto images = kerr_body_images(at, 0, motion, kRadius);
+  int arcs = 0;
+  for (const BodyImage& image : images) {
+    // Of those with psi > 8 the net has few squares across.
+    if (image.psi < 5 || image.psi > 8) continue;
+    const auto pieces_by = [&](double spacing) {
+      return kerr_image_of_sphere(at, 0, motion, image, {}, kRadius,
+                                  [=](const V3d&) { return spacing; });
+    };
+    const auto net = pieces_by(4e-4), line = pieces_by(0.01);
+    const auto length = [](const std::vector<SpherePiece>& pieces) {
+      double longest = 0;
+      for (const SpherePiece& a : pieces)
+        longest = std::max(longest, (a.at.direction.v - pieces.front().at.direction.v).length());
+      return longest;
+    };
+    EXPECT_NEAR(light_of(line) / light_of(net), 1, 0.03) << image.psi;
+    arcs += length(line) > 0.1;
+  }
+  EXPECT_GT(arcs, 1);
 }
 
 }  // namespace
