@@ -135,23 +135,23 @@ struct BoundConstants {
 std::optional<BoundConstants> polar_constants(const KerrHole& hole, double periastron,
                                               double apoastron) {
   const auto a2 = static_cast<double>(hole.spin * hole.spin);
-  const auto pull = [&](double r) {
-    return (r * r + a2) * (r * r + a2) / static_cast<double>(hole.delta(r)) - a2;
-  };
-  const double r = periastron, squares = r * r + a2, delta = static_cast<double>(hole.delta(r));
-  const double energy2 = apoastron > r
-                             ? (apoastron - r) * (apoastron + r) / (pull(apoastron) - pull(r))
-                             : r * delta * delta / (squares * (2 * r * delta - squares * (r - 1)));
+  const double r = periastron, far = apoastron, sum = r + far;
+  const auto delta = static_cast<double>(hole.delta(r)),
+             delta_far = static_cast<double>(hole.delta(far));
+  const double squares = r * r + a2, pull = squares * squares / delta;
+  // The differences of both sides, over that of the radii.
+  const double steepness = sum * (squares + far * far + a2) - pull * (sum - 2);
+  const double energy2 = sum * delta_far / steepness;
   if (!(energy2 > 0 && energy2 < 1)) return std::nullopt;
-  return BoundConstants{energy2, 0, pull(r) * energy2 - r * r};
+  return BoundConstants{energy2, 0, (pull - a2) * energy2 - r * r};
 }
 
 // With Q = z [a^2 (1 - E^2) + L^2/(1 - z)], z = sin^2 of the inclination, where r turns
 //
 //     f E^2 - 2 g E L - h L^2 - d = 0
 //
-// (W. Schmidt, Class. Quantum Grav. 19, 2743 (2002), here with a charge).  Between two such radii, or for
-// a circle with its derivative, E^2 has a quadratic.
+// (W. Schmidt, Class. Quantum Grav. 19, 2743 (2002), here with a charge).  By one such radius, and the
+// difference to the other over that of the radii, E^2 has a quadratic.
 std::optional<BoundConstants> inclined_constants(const KerrHole& hole, double periastron,
                                                  double apoastron, double inclination) {
   const auto a = static_cast<double>(hole.spin), q = static_cast<double>(hole.charge);
@@ -165,14 +165,11 @@ std::optional<BoundConstants> inclined_constants(const KerrHole& hole, double pe
                 r * r * r * r + a * a * (r * (r + 2) - q * q + z * delta), a * (2 * r - q * q),
                 r * (r - 2) + q * q + z / open * delta};
   };
-  const auto slope = [&](double r) {
-    const double delta = static_cast<double>(hole.delta(r)), rate = 2 * (r - 1);
-    return Turn{2 * r * delta + (r * r + a * a * z) * rate,
-                4 * r * r * r + a * a * (2 * r + 2 + z * rate), 2 * a,
-                2 * (r - 1) + z / open * rate};
-  };
-  const Turn one = turn(periastron),
-             two = apoastron > periastron ? turn(apoastron) : slope(periastron);
+  const double r = periastron, far = apoastron, sum = r + far, rate = sum - 2;
+  const Turn one = turn(r),
+             two{sum * static_cast<double>(hole.delta(far)) + (r * r + a * a * z) * rate,
+                 sum * (r * r + far * far) + a * a * (sum + 2 + z * rate), 2 * a,
+                 rate + z / open * rate};
   const auto cross = [](double a1, double b1, double a2, double b2) { return a1 * b2 - a2 * b1; };
   const double kappa = cross(one.d, one.h, two.d, two.h), eps = cross(one.d, one.g, two.d, two.g),
                rho = cross(one.f, one.h, two.f, two.h), eta = cross(one.f, one.g, two.f, two.g),
@@ -219,7 +216,8 @@ std::optional<KerrMotion> kerr_bound(const KerrHole& hole, double periastron, do
   const double r = periastron;
   const double pull = 2 * motion->excess * r * r * r + 3 * r * r + linear * r + carter;
   const double terms = 2 * r * r * r + 3 * r * r + carter;
-  if (apoastron > periastron ? !(pull > 0) : std::abs(pull) > 1e-9 * terms) return std::nullopt;
+  if (apoastron > periastron ? pull < -1e-12 * terms : std::abs(pull) > 1e-9 * terms)
+    return std::nullopt;
   return motion;
 }
 

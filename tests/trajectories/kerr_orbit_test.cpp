@@ -210,6 +210,23 @@ TEST(KerrOrbit, PassesItsOwnEnds) {
       }
 }
 
+// What a script rounds to nearly a circle is nearly a circle.
+TEST(KerrOrbit, OfNearlyNoEccentricityIsNoOther) {
+  const KerrHole hole{0.9, 0};
+  for (const double inclination : {0.0, 1e-4, 1.05, pi / 2, 2.1, pi})
+    for (double width = 1e-14; width < 1e-4; width *= 10) {
+      SCOPED_TRACE(testing::Message() << inclination << " " << width);
+      const auto motion = kerr_bound(hole, 10, 10 * (1 + width), inclination);
+      ASSERT_TRUE(motion);
+      const KerrOrbit orbit(hole, 10, pi / 2, *motion),
+          circle(hole, 10, pi / 2, kerr_bound(hole, 10, 10, inclination).value());
+      for (const double tau : {0.0, 30.0, 500.0}) {
+        EXPECT_NEAR(orbit.at(tau).r, 10 * (1 + width / 2), 6 * width + 1e-6);
+        EXPECT_NEAR(orbit.at(tau).theta, circle.at(tau).theta, 1e3 * width + 1e-6);
+      }
+    }
+}
+
 // Without spin it is Schwarzschild's orbit.
 TEST(KerrOrbit, OfLittleSpinIsThatOfNone) {
   const KerrHole hole{1e-13L, 0};
