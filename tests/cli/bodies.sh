@@ -25,6 +25,13 @@ assert abs(bodies[0]['one_plus_z'] - 1.2321) < 1e-3 and abs(bodies[0]['seen_v'] 
 END
 exits 0 "$DOMEFALL" probe beacon.yaml --at 0 --pixel 64.5,61.7
 grep -q '^body  *beacon, at 10 M, 1 + z 1.2321, seen as V -11.30, image 0 ' stdout || fail "no body is named"
+# So it is before the silhouette, where no sky is seen.
+show 'bodies: {beacon: {trajectory: {type: static, r: 10}, magnitude: -9}}' | sed 's/4.3e6/&, spin: 0.5/' >before.yaml
+exits 0 "$DOMEFALL" probe before.yaml --at 0 --pixel 66,64.5
+grep -q '^sees  *no light of any sky' stdout || fail "a sky is seen through the hole"
+grep -q '^body  *beacon, at 10 M' stdout || fail "a body before the silhouette is not named"
+exits 0 "$DOMEFALL" probe before.yaml --at 0 --pixel 66,64.5 --json
+python3 -c 'import json, sys; assert json.load(open("stdout"))["direction"] is None'
 exits 0 "$DOMEFALL" probe beacon.yaml --at 0 --pixel 10,64 --json
 python3 -c 'import json, sys; assert json.load(open("stdout"))["bodies"] == []'
 exits 0 "$DOMEFALL" probe none.yaml --at 0 --pixel 64.5,61.7 --json

@@ -72,6 +72,22 @@ void print_effects(const Effects& effects, const ViewRay& ray, double width) {
                amplification(ray.bundle, width));
 }
 
+void print_sky(const Probed& p) {
+  if (!p.ray.known) {
+    fmt::print("sees         no light of any sky\n");
+    return;
+  }
+  const Equatorial at = equatorial({p.ray.sky_direction});
+  fmt::print("sees         {} {}, RA {:.6f} deg, Dec {:.6f} deg\n",
+             p.from_singularity() ? "the past singularity, region" : "sky", name_of(p.ray.sky),
+             at.ra_deg, at.dec_deg);
+  if (!p.from_singularity()) fmt::print("1 + z        {:.9g}\n", 1 / p.ray.frequency_ratio);
+  fmt::print("compression  {:.6g} towards the hole, {:.6g} across\n", p.ray.scale_along,
+             p.ray.scale_across);
+  if (!p.from_singularity() && p.show.effects != Effects{})
+    print_effects(p.show.effects, p.ray, p.width());
+}
+
 void print_text(const Probed& p) {
   const ObserverState& observer = p.state.observer;
   const std::string region = region_name(observer.region, observer.universe);
@@ -90,19 +106,7 @@ void print_text(const Probed& p) {
         disc.r, disc.azimuth_deg, 1 / disc.frequency_ratio, disc.temperature, disc.order,
         disc.covered);
   if (!p.disc.empty()) fmt::print("behind it    {:.4g} of the light is left\n", p.left_of_sky);
-  if (!p.ray.known) {
-    fmt::print("sees         no light of any sky\n");
-    return;
-  }
-  const Equatorial at = equatorial({p.ray.sky_direction});
-  fmt::print("sees         {} {}, RA {:.6f} deg, Dec {:.6f} deg\n",
-             p.from_singularity() ? "the past singularity, region" : "sky", name_of(p.ray.sky),
-             at.ra_deg, at.dec_deg);
-  if (!p.from_singularity()) fmt::print("1 + z        {:.9g}\n", 1 / p.ray.frequency_ratio);
-  fmt::print("compression  {:.6g} towards the hole, {:.6g} across\n", p.ray.scale_along,
-             p.ray.scale_across);
-  if (!p.from_singularity() && p.show.effects != Effects{})
-    print_effects(p.show.effects, p.ray, p.width());
+  print_sky(p);
   for (const StarAtPixel& star : p.stars) {
     const std::string name = star.names.empty() ? "without a name" : star.names.front();
     fmt::print("star         {}, V {:.2f} seen as V {:.2f}, image {} at {:.2f},{:.2f}\n",
@@ -167,6 +171,7 @@ void print_probe_json(const Probed& p) {
   const ObserverState& observer = p.state.observer;
   const Equatorial at = equatorial({p.ray.sky_direction});
   const V3d& to = p.ray.sky_direction;
+  const bool known = p.ray.known;
   Json json = {{"frame", p.state.frame},
                {"pixel", {p.pixel.i, p.pixel.j}},
                {"inside", p.inside()},
@@ -174,12 +179,12 @@ void print_probe_json(const Probed& p) {
                 is_flat(observer) ? Json() : Json(region_name(observer.region, observer.universe))},
                {"r", observer.r},
                {"l", observer.l},
-               {"sky", p.ray.known ? Json(name_of(p.ray.sky)) : Json()},
-               {"direction", {to.x, to.y, to.z}},
-               {"ra_deg", at.ra_deg},
-               {"dec_deg", at.dec_deg},
-               {"compression_towards_hole", p.ray.scale_along},
-               {"compression_across", p.ray.scale_across},
+               {"sky", known ? Json(name_of(p.ray.sky)) : Json()},
+               {"direction", known ? Json({to.x, to.y, to.z}) : Json()},
+               {"ra_deg", known ? Json(at.ra_deg) : Json()},
+               {"dec_deg", known ? Json(at.dec_deg) : Json()},
+               {"compression_towards_hole", known ? Json(p.ray.scale_along) : Json()},
+               {"compression_across", known ? Json(p.ray.scale_across) : Json()},
                {"to_edge_deg", p.ray.to_edge * kInDegrees}};
   add_shift(p, json);
   json["stars"] = Json::array();
