@@ -269,7 +269,7 @@ constexpr std::string_view kRows = R"(
 | `retrograde` | `true` or `false`: whether it goes against a hole that spins | [`false`] |
 | `t_max_k` | 1000 to 1e9: the temperature of its hottest ring; gold at 3000, like the Sun at 6000, blue at 20000 | [3000] |
 | `optical_depth` | above 0, at most 1e6: through the gas at right angles; with less than 1 stars shine through, and along its plane all gas is opaque | [6] |
-| `rim` | 0 to 0.5 of its radius: over which it thins out at its inner and outer end | [0.2] |
+| `rim` | 0 to 0.5 of its radius: over which it thins out at its inner and outer end, each at most over half of its width | [0.2] |
 | `height` | 0 to 0.5: H/r of its section, a Gaussian, at `outer_r`; it falls inwards as the eighth root of r; 0 of a sheet, else at least 0.01 | [0] |
 | `plunging` | `true` or `false`: whether gas falls in from the last stable orbit and shines on its way | [`false`] |
 | `pattern` | `turbulence`, `rings`, `spot` or `none`: or a map with one of these as `type` and the keys below, or a list of them | [`none`] |

@@ -73,7 +73,7 @@ struct Disc {
   // the disc follows.
   double luminance = 1e-3;
   // This is the optical depth through the disc at right angles; infinite gas is opaque.  Where `rim`
-  // is above 0, it thins out towards inner and outer radius, over this part of each.
+  // is above 0, it thins out towards both ends, over this part of their radius, half the width at most.
   double optical_depth = std::numeric_limits<double>::infinity(), rim = 0;
   // H/r of its Gaussian section at the outer radius, from where it falls inwards as r^(1/8), as of
   // the outer part of Shakura and Sunyaev's disc; 0 of a sheet.

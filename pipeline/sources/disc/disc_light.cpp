@@ -245,10 +245,11 @@ double depth_across(const Disc& disc, double r, double seen_from) {
     const double t = way / rim;
     if (rim > 0 && t < 1) depth *= t > 0 ? t * t * t * (t * (6 * t - 15) + 10) : 0;
   };
-  thin_out(1 - r / disc.outer, disc.rim);
-  const double horizon = disc.orbits.horizon();
-  thin_out(r / disc.inner - 1,
-           disc.inner > horizon ? disc.rim : std::min(disc.rim, 1 - seen_from / horizon));
+  // No rim takes more than its half of the disc, so that gas is as thick as it can be in the middle.
+  const double half = (disc.outer - disc.inner) / 2;
+  thin_out(1 - r / disc.outer, std::min(disc.rim, half / disc.outer));
+  const double horizon = disc.orbits.horizon(), rim = std::min(disc.rim, half / disc.inner);
+  thin_out(r / disc.inner - 1, disc.inner > horizon ? rim : std::min(rim, 1 - seen_from / horizon));
   return depth;
 }
 

@@ -45,6 +45,16 @@ TEST(DiscDepth, FallsToNothingAtTheHorizonForWhoIsInside) {
   EXPECT_NEAR(absorbed_part(disc, 2, 2, 0.5), 1 - std::exp(-6), 1e-6);
 }
 
+TEST(DiscDepth, IsWholeInTheMiddleOfANarrowDisc) {
+  Disc disc = disc_with(1e4);
+  disc.inner = 18.5, disc.outer = 20, disc.optical_depth = 3, disc.rim = 0.2;
+  EXPECT_EQ(depth_across(disc, 18.5, 30), 0);
+  EXPECT_NEAR(depth_across(disc, 18.875, 30), 3 * 0.5, 1e-12);
+  EXPECT_NEAR(depth_across(disc, 19.25, 30), 3, 1e-12);
+  EXPECT_NEAR(depth_across(disc, 19.625, 30), 3 * 0.5, 1e-12);
+  EXPECT_EQ(depth_across(disc, 20, 30), 0);
+}
+
 TEST(DiscLight, TheHottestRingHasTheLuminanceOfTheShow) {
   for (const double t : {1500.0, 1e4, 1e7}) {
     for (const bool plunging : {false, true}) {
