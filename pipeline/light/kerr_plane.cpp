@@ -70,12 +70,14 @@ std::shared_ptr<const KerrPlane> KerrPlaneKeeper::plane(const KerrPlace& at,
   return plane_;
 }
 
-// Returns E, L and K of a ray.
-KerrPlane::Sight KerrPlane::beginning(double delta, double eta) const {
+// Returns E, L and K of a ray, and where it is from the edge.
+KerrPlane::Sight KerrPlane::beginning(double delta, double eta, const KerrGrid::Edge& edge) const {
   const KerrConstants of(at(), delta, eta);
   Sight sight{};
   sight.from_region_one = of.comes_from_region_one(at());
   sight.energy = of.energy, sight.momentum = of.momentum, sight.about_axis = of.about_axis;
+  sight.to_edge = delta - edge.delta;
+  sight.edge_slope = edge.slope / std::max(std::sin(edge.delta), 1e-9);
   return sight;
 }
 
@@ -84,7 +86,7 @@ bool KerrPlane::exact_nodes(const KerrDirection& n, std::array<Node, kOrders>& n
   for (Node& node : nodes) node.fill(std::nan(""));
   const auto delta = static_cast<double>(kerr_delta(at(), n));
   const auto eta = static_cast<double>(n.eta);
-  const Sight ray = beginning(delta, eta);
+  const Sight ray = beginning(delta, eta, sides_[0].grid.edge(eta));
   if (!ray.from_region_one) return false;
   if (ray.energy > kLeastEnergy) {
     std::size_t order = 0;
@@ -166,7 +168,8 @@ KerrPlane::Node KerrPlane::interpolated(const Side& side, int order, double row,
   return value;
 }
 
-// Cells are empty if no ring may be seen in them, even if w changes from node to node as much again.
+// Cells are outside or inside if no ring may be seen in them, even if w changes from node to node as much
+// again.
 void KerrPlane::judge(Side& side) const {
   side.cells.resize(static_cast<std::size_t>(kOrders * kPlaneRows * kPlaneColumns));
   tbb::parallel_for(0, kPlaneRows, [&](int row) {
@@ -183,20 +186,19 @@ void KerrPlane::judge(Side& side) const {
                                                     nullptr),
                    four = interpolated<kPlanePoints - 2>(side, order, row + 0.5, column + 0.5,
                                                          nullptr, nullptr);
-        const bool empty = high < 1 / rings_.outer || low > 1 / rings_.inner;
         const bool smooth = std::abs(six[0] - four[0]) < kMostOff * std::abs(six[0]);
         side.cells[static_cast<std::size_t>((order * kPlaneRows + row) * kPlaneColumns + column)] =
-            empty    ? Cell::kEmpty
-            : smooth ? Cell::kSmooth
-                     : Cell::kRough;
+            high < 1 / rings_.outer  ? Cell::kOutside
+            : low > 1 / rings_.inner ? Cell::kInside
+            : smooth                 ? Cell::kSmooth
+                                     : Cell::kRough;
       }
   });
 }
 
 KerrPlane::Sight KerrPlane::sight(double delta, double eta) const {
-  Sight sight = beginning(delta, eta);
   const KerrGrid::Edge edge = sides_[0].grid.edge(eta);
-  sight.to_edge = delta - edge.delta;
+  Sight sight = beginning(delta, eta, edge);
   if (!sight.from_region_one) return sight;
   const Side& side = sides_[sight.to_edge > 0 ? 0 : 1];
   KerrGrid::Place in = side.grid.place(delta, eta, edge);
@@ -210,7 +212,9 @@ KerrPlane::Sight KerrPlane::sight(double delta, double eta) const {
   for (int order = 0; order < kOrders; ++order) {
     const Cell cell =
         side.cells[static_cast<std::size_t>((order * kPlaneRows + i) * kPlaneColumns + on)];
-    if (cell == Cell::kEmpty) continue;
+    const auto k = static_cast<std::size_t>(order);
+    sight.within[k] = cell == Cell::kInside;
+    if (cell == Cell::kOutside || cell == Cell::kInside) continue;
     if (cell == Cell::kRough) return exact_sight(delta, eta);
     Node by_row, by_column;
     const Node at = interpolated<kPlanePoints>(side, order, row, in.column, &by_row, &by_column);
@@ -218,7 +222,6 @@ KerrPlane::Sight KerrPlane::sight(double delta, double eta) const {
       return Value{at[n], by_row[n] * in.row_by_delta,
                    (by_row[n] * in.row_by_eta + by_column[n] * side.grid.column_by_eta()) / sine};
     };
-    const auto k = static_cast<std::size_t>(order);
     sight.crosses[k] = true;
     sight.at[k] = {value(0), value(1), value(2), value(3)};
   }
@@ -227,8 +230,7 @@ KerrPlane::Sight KerrPlane::sight(double delta, double eta) const {
 
 KerrPlane::Sight KerrPlane::exact_sight(double delta, double eta) const {
   constexpr double kStep = 1e-5;
-  Sight sight = beginning(delta, eta);
-  sight.to_edge = delta - sides_[0].grid.edge(eta).delta;
+  Sight sight = beginning(delta, eta, sides_[0].grid.edge(eta));
   const double sine = std::max(std::sin(delta), 1e-9);
   std::array<Node, kOrders> here, beyond, beside;
   if (!exact_nodes({delta, eta}, here)) return sight;

@@ -36,10 +36,11 @@ class KerrPlane {
   struct Sight {
     bool from_region_one;
     double energy, momentum,
-        about_axis;  // E, sqrt K and L of light that is one in the tetrad's frame
-    double to_edge;  // radians of delta
-    // Whether an order crosses the plane in region I near the rings.
-    std::array<bool, kOrders> crosses;
+        about_axis;     // E, sqrt K and L of light that is one in the tetrad's frame
+    double to_edge;     // radians of delta
+    double edge_slope;  // by how much the edge's delta changes with an angle across
+    // Whether an order crosses the plane in region I near the rings, or else nearer to the hole.
+    std::array<bool, kOrders> crosses, within;
     std::array<Crossing, kOrders> at;
   };
   // Returns what a ray meets.
@@ -50,7 +51,7 @@ class KerrPlane {
   const KerrPlace& at() const { return sides_[0].grid.at(); }
 
  private:
-  enum class Cell : unsigned char { kEmpty, kSmooth, kRough };
+  enum class Cell : unsigned char { kOutside, kInside, kSmooth, kRough };
   using Node = std::array<double, 4>;
   struct Side {
     KerrGrid grid;
@@ -63,7 +64,7 @@ class KerrPlane {
   template <int kCount>
   Node interpolated(const Side& side, int order, double row, double column, Node* by_row,
                     Node* by_column) const;
-  Sight beginning(double delta, double eta) const;
+  Sight beginning(double delta, double eta, const KerrGrid::Edge& edge) const;
   bool exact_nodes(const KerrDirection& n, std::array<Node, kOrders>& nodes) const;
 
   KerrRings rings_;

@@ -14,13 +14,20 @@ namespace {
 
 using std::numbers::pi;
 
-// Pixels closer to the edge than so many of their widths are the mean of pieces, whose number grows
-// towards the edge, up to kMostPieces.
-constexpr double kNearEdge = 8;
-constexpr int kMostPieces = 24, kMostSamples = 32;
+// Pixels closer to the edge than so many of their widths are the mean of pieces on lines along the edge.
+// From there images are much alike in the logarithm of the distance, so each piece is as high as kPart of
+// its distance, or reaches from the edge to kLeast widths.
+constexpr double kNearEdge = 8, kPart = 0.15, kLeast = 0.03;
+constexpr int kMostSamples = 32;
 // The weights of pieces are a tent of a pixel and a half, as about what a pixel's square has of a thin
 // ring at any angle.
 constexpr double kReach = 0.75;
+
+// Returns the weight of what a pixel has before a place, in its widths from its middle.
+double weight_before(double place) {
+  const double rest = std::max(0.0, 1 - std::abs(place) / kReach), beyond = rest * rest / 2;
+  return place < 0 ? beyond : 1 - beyond;
+}
 
 }  // namespace
 
@@ -49,8 +56,7 @@ void DiscPass::KerrStrip::locate(const CameraDirection* n, const double* angle, 
 
 DiscPass::KerrStrip::Image DiscPass::KerrStrip::image(const Piece& piece,
                                                       const KerrPlane::Crossing& at) const {
-  const double w = at.w.value,
-               per = std::max(length(at.w.by_delta * piece.high, at.w.across * piece.wide), 1e-12);
+  const double w = at.w.value, per = std::max(length(piece.along(at.w), piece.across(at.w)), 1e-12);
   return {w, per, beyond_rim((w - high_) / per), beyond_rim((w - low_) / per)};
 }
 
@@ -85,10 +91,10 @@ PatternPlace DiscPass::KerrStrip::place(const Piece& piece, const KerrPlane::Cro
   const double time = disc_.slow_light ? seen + at.time.value - clock_.tortoise(outside) : seen;
   // The gas turns on while the time of emission changes.
   const double turning = disc_.slow_light ? disc_.orbits.angular_velocity(r) : 0;
-  const double along = (at.angle.by_delta - sense_ * turning * at.time.by_delta) * piece.high,
-               across = (at.angle.across - sense_ * turning * at.time.across) * piece.wide;
+  const double along = piece.along(at.angle) - sense_ * turning * piece.along(at.time),
+               across = piece.across(at.angle) - sense_ * turning * piece.across(at.time);
   // Across the gradient of w, and along it.
-  const double x = at.w.by_delta * piece.high, y = at.w.across * piece.wide,
+  const double x = piece.along(at.w), y = piece.across(at.w),
                steep = std::max(length(x, y), 1e-300);
   const double beside = (across * x - along * y) / steep,
                onward = (along * x + across * y) / steep * of_width;
@@ -134,23 +140,34 @@ double DiscPass::KerrStrip::gather_piece(int k, const Piece& piece) {
 
 double DiscPass::KerrStrip::gather_pixel(int k) {
   const Pixel& pixel = at_[static_cast<std::size_t>(k)];
-  const double off = std::abs(pixel.sight.to_edge) / pixel.width, frequency = rays_.frequency[k];
-  if (off > kNearEdge) {
+  const double off = pixel.from_edge();
+  if (std::abs(off) > kNearEdge) {
     if (!pixel.sight.from_region_one) return 1;
-    return gather_piece(k, {pixel.sight, pixel.width, pixel.width, 1, frequency});
+    return gather_piece(k, {pixel.sight, pixel.width, pixel.width, 1, rays_.frequency[k]});
   }
-  const int pieces =
-      std::clamp(static_cast<int>(std::ceil(10 / std::max(off, 0.1))), 2, kMostPieces);
-  const double high = 2 * kReach * pixel.width / pieces;
-  const auto place = [&](int n) { return kReach * (2 * n + 1 - pieces) / pieces; };
-  double sum = 0, left = 0;
-  for (int n = 0; n < pieces; ++n) sum += kReach - std::abs(place(n));
-  for (int n = 0; n < pieces; ++n) {
-    const double weight = (kReach - std::abs(place(n))) / sum;
-    const double delta = std::clamp(pixel.delta + pixel.width * place(n), 1e-9, pi - 1e-9);
-    const KerrPlane::Sight sight = plane_.sight(delta, pixel.eta);
+  return gather_side(k, 1, off) + gather_side(k, -1, -off);
+}
+
+// Adds the pieces of a pixel on the side of the edge away from the hole (1) or on the other (-1), on which
+// its middle is `off` widths from the edge.  Returns the part of the light from behind that is left there.
+double DiscPass::KerrStrip::gather_side(int k, int side, double off) {
+  const Pixel& pixel = at_[static_cast<std::size_t>(k)];
+  const double nearest = std::max(off - kReach, 0.0), from = std::max(nearest, kLeast);
+  const double way = std::log(std::max((off + kReach) / from, 1.0));
+  const int pieces = static_cast<int>(std::ceil(way / kPart));
+  const double slope = pixel.sight.edge_slope, cosine = pixel.edge_cosine();
+  double left = 0, far = nearest;
+  for (int n = nearest < kLeast ? 0 : 1; n <= pieces; ++n) {
+    const double near = far;
+    far = n == 0 ? from : from * std::exp(way * n / pieces);
+    const double weight = weight_before(far - off) - weight_before(near - off);
+    if (!(weight > 0)) continue;
+    const double moved = side * ((near + far) / 2 - off) * pixel.width / cosine;
+    const KerrPlane::Sight sight =
+        plane_.sight(std::clamp(pixel.delta + moved, 1e-9, pi - 1e-9), pixel.eta);
+    const double high = (far - near) * pixel.width / cosine, wide = pixel.width * cosine;
     left += sight.from_region_one
-                ? weight * gather_piece(k, {sight, high, pixel.width, weight, frequency})
+                ? weight * gather_piece(k, {sight, high, wide, weight, rays_.frequency[k], slope})
                 : weight;
   }
   return left;
@@ -158,7 +175,7 @@ double DiscPass::KerrStrip::gather_pixel(int k) {
 
 DiscPass::Strip::Sighting DiscPass::KerrStrip::sighting(int k) const {
   const Pixel& pixel = at_[static_cast<std::size_t>(k)];
-  const double edge = std::abs(pixel.sight.to_edge) / pixel.width;
+  const double edge = std::abs(pixel.from_edge());
   Sighting seen;
   seen.clearance = std::min(edge, kFar);
   if (!pixel.sight.from_region_one) {
@@ -167,7 +184,11 @@ DiscPass::Strip::Sighting DiscPass::KerrStrip::sighting(int k) const {
   }
   const Piece piece{pixel.sight, pixel.width, pixel.width, 1, 1};
   for (int order = 0; order < KerrPlane::kOrders; ++order) {
-    if (!pixel.sight.crosses[static_cast<std::size_t>(order)]) continue;
+    if (!pixel.sight.crosses[static_cast<std::size_t>(order)]) {
+      if (pixel.sight.within[static_cast<std::size_t>(order)])
+        seen.sight |= static_cast<unsigned>(kAbove) << (2 * order);
+      continue;
+    }
     const Image at = image(piece, pixel.sight.at[static_cast<std::size_t>(order)]);
     // w is much like a function of the logarithm of the distance from the edge.
     const auto clear = [&](double rim) {

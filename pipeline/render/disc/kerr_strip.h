@@ -18,10 +18,17 @@ class DiscPass::KerrStrip : public DiscPass::Strip {
   std::vector<Place> places(const CameraDirection& n, double width);
 
  private:
-  // A part of a pixel, which is `high` and `wide` (radians) along delta and across it.
+  // A part of a pixel, which is `high` (radians) along delta.  It is `wide` across, on a line along which
+  // delta changes by `slope`.
   struct Piece {
     KerrPlane::Sight sight;
-    double high, wide, weight, frequency;
+    double high, wide, weight, frequency, slope = 0;
+
+    // By how much a value changes on each of these ways.
+    double along(const KerrPlane::Value& value) const { return value.by_delta * high; }
+    double across(const KerrPlane::Value& value) const {
+      return (value.across + value.by_delta * slope) * wide;
+    }
   };
   // The image of one order in a piece covers what lies beyond its outer rim and not beyond its inner.
   struct Image {
@@ -31,6 +38,7 @@ class DiscPass::KerrStrip : public DiscPass::Strip {
     double covered() const { return beyond_outer - beyond_inner; }
   };
   double gather_pixel(int k) override;
+  double gather_side(int k, int side, double off);
   double gather_piece(int k, const Piece& piece);
   Image image(const Piece& piece, const KerrPlane::Crossing& at) const;
   Gas gas(const Piece& piece, const KerrPlane::Crossing& at, double r) const;
@@ -47,6 +55,11 @@ class DiscPass::KerrStrip : public DiscPass::Strip {
   struct Pixel {
     double delta, eta, width;
     KerrPlane::Sight sight;
+
+    // The cosine of the angle at which the edge runs to a circle about the hole.
+    double edge_cosine() const { return 1 / length(1, sight.edge_slope); }
+    // How many of its widths it is from the edge, less than 0 towards the hole.
+    double from_edge() const { return sight.to_edge * edge_cosine() / width; }
   };
   std::array<Pixel, kSize> at_{};
 };

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -57,6 +58,42 @@ TEST_F(KerrDisc, GoesOverIntoThatWithoutSpin) {
     const auto [mean, differ] = differences(still, slow);
     EXPECT_LT(mean, 8e-3) << gas;
     EXPECT_LT(differ, 0.03) << gas;  // along rims, which are a pixel wide
+  }
+}
+
+// Images thinner than a pixel are lines of as much light as in a frame of smaller pixels, all around.
+TEST_F(KerrDisc, HasEvenLightInThinImages) {
+  constexpr int kSize = 96, kFiner = 4, kSectors = 36;
+  const Show s = show(", spin: 0.9", "disc: {retrograde: true}", "r: 30, latitude_deg: 30");
+  Renderer renderer(s, 1);
+  const auto frame = [&](int size, double field) {
+    FrameState state = frame_state(s, 0);
+    state.projection = Rectilinear{size, size, field};
+    FloatImage image;
+    renderer.render(state, image);
+    return image;
+  };
+  // The second image about the hole, and the third with parts of the second.
+  for (const double degrees : {30.0, 20.0}) {
+    const FloatImage coarse = frame(kSize, degrees * kDegree),
+                     fine = frame(kSize * kFiner, degrees * kDegree);
+    std::array<double, kSectors> light{}, truth{};
+    for (int row = 0; row < fine.height; ++row)
+      for (int column = 0; column < fine.width; ++column) {
+        const int i = column / kFiner, j = row / kFiner;
+        constexpr double kMiddle = (kSize - 1) / 2.0;
+        const double turn = std::atan2(j - kMiddle, i - kMiddle) / (2 * std::numbers::pi) + 0.5;
+        const auto sector = static_cast<std::size_t>(turn * kSectors) % kSectors;
+        truth[sector] += double{pixel_at(fine, column, row).g};
+        light[sector] += double{pixel_at(coarse, i, j).g};
+      }
+    int seen = 0;
+    for (std::size_t k = 0; k < kSectors; ++k) {
+      if (truth[k] == 0) continue;  // the images are beyond the frame
+      EXPECT_NEAR(light[k] / truth[k], 1, 0.12) << degrees << ' ' << k;
+      ++seen;
+    }
+    EXPECT_GE(seen, 28) << degrees;
   }
 }
 
