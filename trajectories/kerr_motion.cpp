@@ -113,8 +113,12 @@ std::optional<KerrMotion> kerr_circling(const KerrHole& hole, double r, double t
                     around * around + a * a * cosine * cosine, celerity};
 }
 
-KerrMotion kerr_dragged(const KerrHole& hole, double r, double theta) {
-  return kerr_circling(hole, r, theta, dragged_velocity(hole, r, theta)).value();
+KerrMotion kerr_dragged(const KerrHole& hole, double r, double theta, double momentum) {
+  const Metric g(hole, r, theta);
+  const double own = momentum != 0 ? momentum / std::sqrt(g.sine2 * g.around(r)) : 0;
+  return kerr_circling(hole, r, theta,
+                       dragged_velocity(hole, r, theta, own / std::sqrt(1 + own * own)))
+      .value();
 }
 
 double circling_rate(const KerrHole& hole, double r, double theta, double velocity) {

@@ -28,8 +28,9 @@ std::optional<KerrMotion> kerr_circling(const KerrHole& hole, double r, double t
 // Returns the angular velocity of who has no angular momentum (ZAMO), or has that speed against it, with
 // the spin.  On the axis there is none.
 double dragged_velocity(const KerrHole& hole, double r, double theta, double speed = 0);
-// Returns the motion of who has no angular momentum and stays at r and theta, outside the horizon.
-KerrMotion kerr_dragged(const KerrHole& hole, double r, double theta);
+// Returns the motion of who has that angular momentum and neither rises nor turns to a pole at r and
+// theta, outside the horizon and, if it is not 0, off the axis.
+KerrMotion kerr_dragged(const KerrHole& hole, double r, double theta, double momentum = 0);
 // Returns the motion at the smallest r of a bound orbit, where it crosses the equator northwards.
 // `inclination` is 0 to pi: its orbit reaches so far from the equator, and goes against the spin beyond
 // pi/2.  Nothing is returned where no such orbit is, or where it would fall in.

@@ -261,6 +261,20 @@ TEST(KerrOrbit, OfRainFallsStraightAlongTheLightThatFalls) {
   }
 }
 
+// Who falls from where nothing rises has the angular momentum that is asked for, and comes down.
+TEST(KerrDragged, HasItsAngularMomentum) {
+  const KerrHole hole{0.9, 0};
+  for (const double theta : {0.8, 1.2, pi / 2})
+    for (const double momentum : {-2.0, 0.0, 1.0}) {
+      const KerrMotion motion = kerr_dragged(hole, 6, theta, momentum);
+      EXPECT_NEAR(motion.momentum, momentum, 1e-14);
+      const KerrOrbit orbit(hole, 6, theta, motion);
+      EXPECT_NEAR(orbit.at(0).r, 6, 1e-12);
+      EXPECT_LT(orbit.at(5).r, 5.95);
+      EXPECT_NEAR(orbit.at(0.01).r, 6, 1e-4);
+    }
+}
+
 TEST(KerrBound, TurnsWhereItShould) {
   for (const double spin : {0.3, 0.9, 0.998})
     for (const double inclination : {0.0, 0.5, 1.2, pi / 2, 2.0, pi}) {

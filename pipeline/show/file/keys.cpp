@@ -140,9 +140,9 @@ constexpr std::string_view kRows = R"(
 | `latitude_deg` | -90 to 90: above the hole's equator, of a circle with a `speed` | [0] |
 | `orbits` | 0 to 1e6 revolutions: how many orbits in the segment, as the stars see them | |
 ## infall about a spin
-| `rest_r` | above 1, at most 1e9 M: from rest at this r, without angular momentum; else from far away | |
+| `rest_r` | above 1, at most 1e9 M: from where it neither rises nor falls at this r; else from far away | |
 | `latitude_deg` | -90 to 90: above the hole's equator, where the fall begins | [0] |
-| `angular_momentum` | -1e3 to 1e3 M: about the axis, of a fall from far away, which must not turn around | [0] |
+| `angular_momentum` | -1e3 to 1e3 M: about the axis; the fall must not turn around | [0] |
 ## bound about a spin
 | `periastron` | above 1, at most 1e9 M: its smallest r | required |
 | `apoastron` | above 1, at most 1e6 M: its largest r; if both are alike, it stays on a sphere | required |

@@ -65,16 +65,14 @@ std::optional<TimedTrajectory> read_driven_circle(const Item& item, const Sectio
   return paced_circle(item, s, stage, circle, turn, *rate, false);
 }
 
-// Returns the greatest r below `from` at which a fall with E = 1 turns around outside the horizon, if it
-// does.
-std::optional<double> turn_of_fall(const KerrHole& hole, double from, double momentum,
-                                   double carter) {
+// Returns the greatest r below `from` at which a fall turns around outside the horizon, if it does.
+std::optional<double> turn_of_fall(const KerrHole& hole, double from, const KerrMotion& motion) {
   constexpr int kSteps = 4000;
   const auto a = static_cast<double>(hole.spin), horizon = static_cast<double>(hole.horizon());
   for (int k = 1; k < kSteps; ++k) {
     const double r = from * std::pow(horizon / from, k / static_cast<double>(kSteps));
-    const double p = r * r + a * a - a * momentum;
-    if (p * p < static_cast<double>(hole.delta(r)) * (r * r + carter)) return r;
+    const double p = (r * r + a * a) * motion.energy - a * motion.momentum;
+    if (p * p < static_cast<double>(hole.delta(r)) * (r * r + motion.carter)) return r;
   }
   return std::nullopt;
 }
@@ -198,20 +196,27 @@ std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& sta
   const double momentum = s.number("angular_momentum");
   Defaults defaults;
   defaults.to_r = std::max(0.05, stage.spacetime.inner_horizon() * 1.01);
+  if (sine < 1e-9 && momentum != 0)
+    return s.find("angular_momentum")->fail("must be 0 on the axis");
+  const auto falls = [&](double r, const KerrMotion& motion) -> std::optional<TimedTrajectory> {
+    if (const auto turn = momentum != 0 ? turn_of_fall(hole, r, motion) : std::nullopt)
+      return s.find("angular_momentum")
+          ->fail(
+              fmt::format("is too much for a fall, which turns around at r = {:.4g}: type thrown "
+                          "flies past the hole",
+                          *turn));
+    defaults.tau = 0;
+    return falling(s, stage, item, r, theta, motion, defaults);
+  };
   if (s.find("rest_r")) {
     if (!rest_r || !in_range(*s.find("rest_r"), *rest_r, outside(stage))) return std::nullopt;
-    if (const Item* given = s.find("angular_momentum"))
-      return given->fail("is of a fall from far away; from rest_r all falls without");
-    defaults.tau = 0;
-    return falling(s, stage, item, *rest_r, theta, kerr_dragged(hole, *rest_r, theta), defaults);
+    return falls(*rest_r, kerr_dragged(hole, *rest_r, theta, momentum));
   }
   const auto from_r = s.required("from_r");
   if (!from_r) return std::nullopt;
   if (!(*from_r > stage.spacetime.inner_horizon()))
     return s.find("from_r")->fail(fmt::format("must exceed {} (units of M), the inner horizon",
                                               short_number(stage.spacetime.inner_horizon())));
-  if (sine < 1e-9 && momentum != 0)
-    return s.find("angular_momentum")->fail("must be 0 on the axis");
   // It neither rises nor sinks at from_r.
   const double around = sine > 0 ? momentum / sine - a * sine : 0, over = momentum - a;
   const double carter_q = a * a * cosine * cosine + around * around - over * over;
@@ -220,13 +225,7 @@ std::optional<TimedTrajectory> read_spin_fall(const Item& item, const Stage& sta
     return s.find("angular_momentum")
         ->fail(fmt::format("is too much for a fall from infinity to come to r = {}",
                            short_number(*from_r)));
-  if (const auto turn = turn_of_fall(hole, *from_r, momentum, carter_q + over * over))
-    return s.find("angular_momentum")
-        ->fail(fmt::format("is too much for a fall, which turns around at r = {:.4g}: type thrown "
-                           "flies past the hole",
-                           *turn));
-  defaults.tau = 0;
-  return falling(s, stage, item, *from_r, theta, *motion, defaults);
+  return falls(*from_r, *motion);
 }
 
 std::optional<TimedTrajectory> read_spin_bound(const Item& item, const Stage& stage, Lookup&) {

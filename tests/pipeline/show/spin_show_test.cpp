@@ -175,6 +175,10 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   EXPECT_EQ(complaint_of("{type: infall, from_r: 20, angular_momentum: 2.6}"), "");
   EXPECT_EQ(complaint_of("{type: infall, from_r: 20, angular_momentum: -4.7}"), "");
   has(complaint_of("{type: infall, from_r: 20, angular_momentum: -4.8}"), "turns around at r = ");
+  EXPECT_EQ(complaint_of("{type: infall, rest_r: 6, angular_momentum: 1}"), "");
+  has(complaint_of("{type: infall, rest_r: 6, angular_momentum: 9}"), "turns around at r = 5.9");
+  has(complaint_of("{type: infall, rest_r: 6, angular_momentum: 1, latitude_deg: 90}"),
+      "must be 0 on the axis");
   for (const char* key : {"latitude_deg: 9", "inclination_deg: 9", "retrograde: true"})
     has(complaint("black_hole: {mass_solar: 4}\ntimeline:\n  - {duration_s: 2, trajectory: {type: "
                   "circular, r: 9, " +
