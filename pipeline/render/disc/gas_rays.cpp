@@ -219,8 +219,9 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
                  to = std::min(b.w > horizon ? a.psi + crossed : b.psi, until), way = to - from;
     for (int n = 0; n < steps; ++n) {
       // Gauss's two places of each pair of steps.
-      const double aside = (n % 2 == 0 ? -1 : 1) / std::sqrt(3.0);
-      const double psi = from + way * (n / 2 * 2 + 1 + aside) / steps,
+      const int second = n % 2;
+      const double aside = (second == 1 ? 1 : -1) / std::sqrt(3.0);
+      const double psi = from + way * (n - second + 1 + aside) / steps,
                    part = (psi - a.psi) / (b.psi - a.psi);
       const double w = LightPath::inverse_radius(a, b, part);
       if (!(w > least && w < horizon)) continue;
