@@ -139,7 +139,7 @@ int GasRays::steps_between(const LightPath::Place& a, const LightPath::Place& b,
     longest = std::min(longest, disc_step_);
   // Where light moves along r, gas changes as fast by that.
   const double onward = std::max(length, std::abs(b.w - a.w) / std::max(a.w, b.w));
-  return 2 * static_cast<int>(std::ceil((spin_ ? onward : b.psi - a.psi) / (2 * longest)));
+  return 2 * static_cast<int>(std::ceil(onward / (2 * longest)));
 }
 
 // Above the plane the circles of gas are smaller, and gas is slower against who rests.  Returns by what
@@ -268,7 +268,8 @@ void GasRays::add_look(const Ray& ray, const Layer& layer, const WorkingRgb& lig
   to.time += static_cast<float>(share * (time - observer_time()));
 }
 
-// Returns where a ray crosses the disc's plane first.
+// Returns where a ray crosses the disc's plane first, or would if it did not end before, so that nothing
+// changes suddenly where rays begin to end.
 double GasRays::first_crossing(const Ray& ray) const {
   const std::vector<LightPath::Place>& places = ray.path.places;
   for (std::size_t k = 1; k < places.size(); ++k) {
@@ -276,7 +277,9 @@ double GasRays::first_crossing(const Ray& ray) const {
     if ((before > 0) != (after > 0))
       return places[k - 1].psi + (places[k].psi - places[k - 1].psi) * before / (before - after);
   }
-  return HUGE_VAL;
+  const LightPath::Place& last = places.back();
+  const double above = last.at.dot(ray.disc), rising = last.turning.dot(ray.disc);
+  return last.psi + arc_tangent2(std::abs(above), above > 0 ? -rising : rising);
 }
 
 // Lays layers behind each other, the nearest first.
