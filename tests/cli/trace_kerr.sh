@@ -35,3 +35,6 @@ refused '0.5,0,5,1,1,0,,1e-3' 'offset is given without an edge'
 refused '0.5,0,5,1,1,0,silhouette,1e-3' 'delta is 1, and edge and offset give'
 columns=spin,charge,r,theta,delta,eta,k
 refused '0.5,0,5,1,1,0,-1' 'k must be a whole number'
+printf 'spin,r,theta,delta,eta\n0.5,5,1,1,0\n' >short.csv
+exits 2 "$DOMEFALL" trace --table short.csv
+grep -q 'no column charge' stderr || fail "a table without a charge is not told so"

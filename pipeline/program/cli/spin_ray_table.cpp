@@ -84,7 +84,7 @@ void print_passage(const KerrQuestion& asked, int k) {
 
 }  // namespace
 
-bool is_spin_ray_table(const CsvFile& rows) { return rows.has("spin") && rows.has("charge"); }
+bool is_spin_ray_table(const CsvFile& rows) { return rows.has("spin"); }
 
 void trace_spin_rays(const std::string& file) {
   CsvFile rows(file, {"spin", "charge", "r", "theta", "delta", "eta"});
