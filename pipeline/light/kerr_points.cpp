@@ -236,25 +236,32 @@ void KerrPoints::set_box(Cell& cell) const {
   cell.off_column = static_cast<float>(1.2 * short_side);
 }
 
+// Moves on by a step of Newton's method towards a place.  Returns by how many rows and columns, or nothing
+// where there is no step, or where it leads away from the cell.
+std::optional<std::array<double, 2>> KerrPoints::step(const V3d& place, const Cell& cell,
+                                                      Found& at) {
+  const auto by = parts_along(place - at.value.sky * place.dot(at.value.sky), at.value.by_row,
+                              at.value.by_column);
+  if (!by) return std::nullopt;
+  const auto [by_row, by_column] = *by;
+  const double most_rows = 0.6 * cell.half_rows, most_columns = 0.6 * cell.half_columns;
+  at.row += std::clamp(by_row, -most_rows, most_rows);
+  at.column += std::clamp(by_column, -most_columns, most_columns);
+  if (cell.from_middle(at.row, at.column) > 2) return std::nullopt;
+  return std::array{std::abs(by_row), std::abs(by_column)};
+}
+
 // Newton's method on the parabolas through the places of a cell, which are much quicker than the chart and
 // near enough to tell that a place has no image there.
-bool KerrPoints::approach(const V3d& place, const Cell& cell, Found& at) const {
+bool KerrPoints::approach(const V3d& place, const Cell& cell, Found& at) {
   double nearest = HUGE_VAL;
-  for (int step = 0; step < 8; ++step) {
-    const KerrChart::Value value = cell.value(at.row, at.column);
-    const V3d rest = place - value.sky * place.dot(value.sky);
-    const auto by = parts_along(rest, value.by_row, value.by_column);
-    nearest = std::min(nearest, rest.length());
+  for (int k = 0; k < 8; ++k) {
+    at.value = cell.value(at.row, at.column);
+    nearest = std::min(nearest, (place - at.value.sky * place.dot(at.value.sky)).length());
+    const auto by = step(place, cell, at);
     if (!by) return false;
-    const auto [by_row, by_column] = *by;
-    const double most_rows = 0.6 * cell.half_rows, most_columns = 0.6 * cell.half_columns;
-    at.row += std::clamp(by_row, -most_rows, most_rows);
-    at.column += std::clamp(by_column, -most_columns, most_columns);
-    const double out_rows = std::abs(at.row - cell.row) / cell.half_rows,
-                 out_columns = std::abs(at.column - cell.column) / cell.half_columns;
-    if (out_rows > 2 || out_columns > 2) return false;
-    if (std::abs(by_row) < 0.1 * cell.half_rows && std::abs(by_column) < 0.1 * cell.half_columns)
-      return out_rows < kNearby && out_columns < kNearby;
+    if ((*by)[0] < 0.1 * cell.half_rows && (*by)[1] < 0.1 * cell.half_columns)
+      return cell.from_middle(at.row, at.column) < kNearby;
   }
   return nearest < kByCaustic * cell.radius;
 }
@@ -263,22 +270,14 @@ bool KerrPoints::approach(const V3d& place, const Cell& cell, Found& at) const {
 bool KerrPoints::find(const V3d& place, const Cell& cell, Found& at) const {
   if (!approach(place, cell, at)) return false;
   // Images on the rim of a cell are found in both.
-  constexpr double kRim = 1e-7;
-  for (int step = 0; step < 16; ++step) {
+  constexpr double kRim = 1e-6;
+  for (int k = 0; k < 16; ++k) {
     at.value = chart_.value(at.row, at.column);
-    const auto by = parts_along(place - at.value.sky * place.dot(at.value.sky), at.value.by_row,
-                                at.value.by_column);
+    const auto by = step(place, cell, at);
     if (!by) return false;
-    const auto [by_row, by_column] = *by;
-    const double most_rows = 0.6 * cell.half_rows, most_columns = 0.6 * cell.half_columns;
-    at.row += std::clamp(by_row, -most_rows, most_rows);
-    at.column += std::clamp(by_column, -most_columns, most_columns);
-    const double out_rows = std::abs(at.row - cell.row) - cell.half_rows,
-                 out_columns = std::abs(at.column - cell.column) - cell.half_columns;
-    if (out_rows > cell.half_rows || out_columns > cell.half_columns) return false;
     // The next step would be its square.
-    if (std::abs(by_row) < 1e-5 && std::abs(by_column) < 1e-5)
-      return std::max(out_rows, out_columns) < kRim && place.dot(at.value.sky) > 0;
+    if ((*by)[0] < 1e-5 && (*by)[1] < 1e-5)
+      return cell.from_middle(at.row, at.column) < 1 + kRim && place.dot(at.value.sky) > 0;
   }
   return false;
 }

@@ -2,7 +2,10 @@
 // by where they lie on the sky, and in each that may hold a point Newton's method finds its image.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "pipeline/light/kerr_chart.h"
@@ -40,7 +43,12 @@ class KerrPoints : public SkyPoints {
     // Its corners and middles, by row and by column, from the middle on.
     std::array<std::array<Imath::V3f, 3>, 3> places{};
 
-    KerrChart::Value value(double row, double column) const;  // by the parabolas through them
+    KerrChart::Value value(double at_row, double at_column) const;  // by the parabolas through them
+    // Returns how far from its middle a place is, in halves of its sides.
+    double from_middle(double at_row, double at_column) const {
+      return std::max(std::abs(at_row - row) / half_rows,
+                      std::abs(at_column - column) / half_columns);
+    }
   };
   struct Found {
     double row, column;
@@ -54,7 +62,8 @@ class KerrPoints : public SkyPoints {
   void set_inverse(Cell& cell, const Net& net) const;
   void set_box(Cell& cell) const;
   void put_in_bins(const Net& net);
-  bool approach(const V3d& place, const Cell& cell, Found& at) const;
+  static std::optional<std::array<double, 2>> step(const V3d& place, const Cell& cell, Found& at);
+  static bool approach(const V3d& place, const Cell& cell, Found& at);
   bool find(const V3d& place, const Cell& cell, Found& at) const;
 
   const KerrChart& chart_;

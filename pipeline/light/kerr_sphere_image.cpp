@@ -167,7 +167,7 @@ bool Ribbon::go(double sense) {
   while (line_.size() < most) {
     const auto pass = next(line_.back(), way * step_);
     if (!pass || !(std::abs(place(*pass)) < 1)) return false;
-    const V3d& onward = kerr_stretch(*pass).shorter_view;
+    const V3d onward = kerr_stretch(*pass).shorter_view;
     way = onward * (onward.dot(pass->view - line_.back().view) < 0 ? -1 : 1);
     line_.push_back(*pass);
     if (line_.size() > begun + 4 && (pass->view - first).length() < step_) return true;
