@@ -52,12 +52,16 @@ struct LightPath {
   // the path of an observer in region II begins.
   std::vector<Place> places;
 
-  // Returns 1/r and the direction between two successive places, by the cubics through them; `part` is
-  // 0 to 1.
+  // Returns 1/r, its slope and the direction between two successive places, by the cubics through them;
+  // `part` is 0 to 1.
   static double inverse_radius(const Place& a, const Place& b, double part) {
     const double h = b.psi - a.psi, t = part, s = 1 - part;
     return s * s * ((1 + 2 * t) * a.w + t * h * a.slope) +
            t * t * ((1 + 2 * s) * b.w - s * h * b.slope);
+  }
+  static double slope(const Place& a, const Place& b, double part) {
+    const double h = b.psi - a.psi, t = part, s = 1 - part;
+    return 6 * s * t * (b.w - a.w) / h + s * (s - 2 * t) * a.slope + t * (t - 2 * s) * b.slope;
   }
   static V3d direction(const Place& a, const Place& b, double part) {
     const double h = b.psi - a.psi, t = part, s = 1 - part;

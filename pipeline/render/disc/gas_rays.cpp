@@ -171,7 +171,7 @@ GasRays::Layer GasRays::layer(const Ray& ray, const Step& step) const {
   }
   const double way = step.length * sigma / ray.path.rate;
   const auto add_thin = [&](const auto& gas, const V3d& normal, const GasColour& colour) {
-    const GasPlace at{step.r, step.at.dot(normal), step.outward};
+    const GasPlace at{step.r, step.at.dot(normal), step.rising};
     const double n = density(gas, orbits_, at);
     if (n < 1e-6) return;
     const double sent =
@@ -185,7 +185,7 @@ GasRays::Layer GasRays::layer(const Ray& ray, const Step& step) const {
   if (std::abs(off) > kHeights) return layer;
   const GasOrbits& orbits = disc_->orbits;
   const double sent = disc_shift(orbits, {energy, momentum, ray.path.about.dot(ray.disc)}, step.r,
-                                 step.r < orbits.last_stable() && step.outward) /
+                                 step.r < orbits.last_stable() && step.rising > 0) /
                       speed_at_latitude(step.r, s);
   // Light that a path leads to above the plane need not get to its circles in it.
   if (!(sent > 0)) return layer;
@@ -226,7 +226,8 @@ GasSight GasRays::sight(const LightPath& path, const V3d& across, double frequen
       const double w = LightPath::inverse_radius(a, b, part);
       if (!(w > least && w < horizon)) continue;
       Layer one = layer(ray, {psi, way / steps, LightPath::direction(a, b, part), 1 / w,
-                              a.time + part * (b.time - a.time), b.w > a.w});
+                              a.time + part * (b.time - a.time),
+                              LightPath::slope(a, b, part) * path.rate / (w * w)});
       if (!(one.depth > 0 || one.light.r + one.light.g + one.light.b > 0)) continue;
       if (one.depth > 0) {
         one.psi -= (0.5 - depth_of_light(one.depth)) * way / steps;

@@ -76,11 +76,12 @@ double sent_frequency(const Jet& jet, const GasOrbits& hole, const GasRay& ray,
   const double around = std::max(0.0, (ray.momentum * ray.momentum - y * y / p.sine2) / p.sigma +
                                           l * l * p.sigma / (p.a * p.sine2)) /
                         (energy * energy);
-  const double radial = std::sqrt(std::max(0.0, 1 - around)), g = jet.lorentz;
+  const double radial =
+      std::min(1.0, std::abs(at.rising) / (energy * std::sqrt(p.delta * p.sigma)));
   // gamma - sqrt(gamma^2 - 1) x is 1/(gamma + ...) for x = 1, without a difference of like numbers.
-  const double own = std::sqrt((g - 1) * (g + 1));
+  const double g = jet.lorentz, own = std::sqrt((g - 1) * (g + 1));
   const double against =
-      at.outward ? 1 / (g + own) + own * (around / (1 + radial)) : g + own * radial;
+      at.rising > 0 ? 1 / (g + own) + own * (around / (1 + radial)) : g + own * radial;
   return energy * against;
 }
 
@@ -101,7 +102,7 @@ double longest_step(const Jet& jet, double latitude_sine, double length) {
 namespace {
 
 constexpr double kLogRange = 14;  // g from e^-14 to e^14
-constexpr int kPerLog = 128;
+constexpr int kPerLog = 512;
 
 }  // namespace
 

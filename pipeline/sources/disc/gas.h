@@ -61,7 +61,7 @@ struct Jet {
 // shift there, by GasRay.
 struct GasPlace {
   double r, latitude_sine;
-  bool outward;  // whether light sets out to larger radii
+  double rising;  // dr by Mino's time of the light that sets out
 };
 
 // Returns how dense gas is at a place, 1 at most.
