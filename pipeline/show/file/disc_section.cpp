@@ -6,6 +6,8 @@
 #include "pipeline/image/read_image.h"
 #include "pipeline/show/file/sections.h"
 #include "pipeline/show/placement.h"
+#include "pipeline/sources/colour/blackbody.h"
+#include "pipeline/sources/disc/disc_light.h"
 
 namespace domefall {
 namespace {
@@ -168,6 +170,23 @@ OrbitPlane read_orbit_plane(const Section& s, const Show& to) {
           {(north * std::cos(inclination) - onward * std::sin(inclination)).normalized()}};
 }
 
+// About a hole that spins the same gas is hotter next to the hole.  Were the hottest ring no hotter by
+// default than without a spin, the rest of the disc would be dark; were it as hot as that gas, all of the
+// disc would be white behind its own glare.  Between them gold stays gold.
+void read_light(const Section& s, Disc& disc) {
+  disc.t_max_k = s.number("t_max_k"), disc.luminance = s.number("luminance_cd_m2");
+  if (disc.orbits.spin() == 0) return;
+  const GasOrbits without(ChargedHole{1, std::sqrt(disc.orbits.charge_squared())});
+  const auto greatest = [&](const GasOrbits& orbits) {
+    return PageThorneProfile(disc.plunging, orbits).greatest();
+  };
+  const double hotter = std::pow(greatest(disc.orbits) / greatest(without), 0.25 * 2 / 3);
+  if (!s.given("t_max_k")) disc.t_max_k *= hotter;
+  if (!s.given("luminance_cd_m2"))
+    disc.luminance *=
+        std::sqrt(blackbody_xyz(disc.t_max_k).y / blackbody_xyz(disc.t_max_k / hotter).y);
+}
+
 std::optional<Disc> read_disc(const Section& show, const Show& to, const Lookup& lookup) {
   const Item* item = show.find("disc");
   if (item == nullptr) return std::nullopt;
@@ -181,8 +200,7 @@ std::optional<Disc> read_disc(const Section& show, const Show& to, const Lookup&
   read_radii(s, disc);
   const OrbitPlane plane = read_gas_plane(s, to, retrograde);
   disc.node = plane.node, disc.normal = plane.normal;
-  disc.t_max_k = s.number("t_max_k");
-  disc.luminance = s.number("luminance_cd_m2");
+  read_light(s, disc);
   disc.optical_depth = s.number("optical_depth"), disc.rim = s.number("rim");
   disc.height = s.number("height");
   // A lower slab would be finer than the rays by which it is looked at.

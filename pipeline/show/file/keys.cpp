@@ -267,7 +267,7 @@ constexpr std::string_view kRows = R"(
 | `inclination_deg` | 0 to 180: the angle between its plane and that of the orbits that set out as `heading_deg` says; with more than 90 it turns against them | [10] |
 | `node_deg` | -360 to 360: where its gas rises through the plane of the orbits to their north, as an azimuth from the observer's first place in the sense of the orbits | [90] |
 | `retrograde` | `true` or `false`: whether it goes against a hole that spins | [`false`] |
-| `t_max_k` | 1000 to 1e9: the temperature of its hottest ring; gold at 3000, like the Sun at 6000, blue at 20000 | [3000] |
+| `t_max_k` | 1000 to 1e9: the temperature of its hottest ring; gold at 3000, like the Sun at 6000, blue at 20000 | [3000; about a spin more, 5100 at 0.9] |
 | `optical_depth` | above 0, at most 1e6: through the gas at right angles; with less than 1 stars shine through, and along its plane all gas is opaque | [6] |
 | `rim` | 0 to 0.5 of its radius: over which it thins out at its inner and outer end, each at most over half of its width | [0.2] |
 | `height` | 0 to 0.5: H/r of its section, a Gaussian, at `outer_r`; it falls inwards as the eighth root of r; 0 of a sheet, else at least 0.01 | [0] |
@@ -275,7 +275,7 @@ constexpr std::string_view kRows = R"(
 | `pattern` | `turbulence`, `rings`, `spot` or `none`: or a map with one of these as `type` and the keys below, or a list of them | [`none`] |
 | `slow_light` | `true` or `false`: whether a pattern is seen as it was when the light left it; with `false` all of it is seen at one time | [`true`] |
 ## disc.light
-| `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: how bright that ring is to an observer who moves with it | [1e-2, which is pixel value 10 at 0 EV] |
+| `luminance_cd_m2` | above 0, at most 1e12 cd/m^2: how bright that ring is to an observer who moves with it | [1e-2, which is pixel value 10 at 0 EV; about a spin more, 5.9e-2 at 0.9] |
 | `opacity` | 0 to 1: the part of the light from behind it that it takes away; its own light is the same part of what it would be | [1] |
 ## pattern
 | `type` | `turbulence`, `rings`, `spot`, `file` or `none`: a pattern with the keys below; `file` where a `file` is named | required |

@@ -174,7 +174,7 @@ double PageThorneProfile::stable_flux(double r) const {
   const double q2 = orbits_.charge_squared();
   if (orbits_.spin() != 0)
     return (brought(r) + pull_) * orbits_.shear(r) * orbits_.circling(r) /
-           (r * r * orbits_.slowing_squared(r));
+           (1.5 * r * r * orbits_.slowing_squared(r));
   const double over = (r - 3 + 2 * q2 / r) * r * r * std::sqrt(r - q2);
   return (brought(r) + pull_) / over * (1 - 4 * q2 / (3 * r));
 }

@@ -53,6 +53,9 @@ class PageThorneProfile {
   // Returns the radius of that ring (units of M), which is 9.55 without a charge, or r_s where gas
   // plunges.
   double hottest() const { return hottest_; }
+  // Returns that ring's flux, in a unit by which discs of one rate of infall have one flux far from all
+  // holes of one mass.
+  double greatest() const { return greatest_; }
 
  private:
   double brought(double r) const;  // B

@@ -54,6 +54,27 @@ TEST_F(SpinShow, HasAnAxisOfItsOwn) {
   EXPECT_NEAR(o.sky_from_tetrad.determinant(), 1, 1e-14);
 }
 
+// The same gas would be 2.2316 times as hot as without a spin of 0.9.
+TEST_F(SpinShow, HasADiscWhoseDefaultsFollowTheSpin) {
+  const auto disc = [this](const std::string& spin, const std::string& keys) {
+    return show_with(
+               "spin: " + spin,
+               "  - {duration_s: 1, trajectory: {type: static, r: 20}}\ndisc: {" + keys + "}\n")
+        .disc.value();
+  };
+  const Disc usual = disc("0.9", "");
+  EXPECT_NEAR(usual.t_max_k, 3000 * std::pow(2.2316, 2.0 / 3), 1);
+  EXPECT_NEAR(usual.luminance, 0.0587, 1e-4);
+  EXPECT_NEAR(disc("0.998", "").t_max_k / disc("0.5", "").t_max_k,
+              std::pow(4.3238 / 1.3288, 2.0 / 3), 1e-3);
+  EXPECT_NEAR(disc("0.9", "retrograde: true").t_max_k, 3000 * std::pow(0.7429, 2.0 / 3), 1);
+  EXPECT_NEAR(disc("1e-9", "").t_max_k, 3000, 1e-3);
+  EXPECT_EQ(disc("0", "").luminance, 1e-2);
+  const Disc given = disc("0.9", "t_max_k: 3000, luminance_cd_m2: 1e-2");
+  EXPECT_EQ(given.t_max_k, 3000);
+  EXPECT_EQ(given.luminance, 1e-2);
+}
+
 TEST_F(SpinShow, GoesOnFromSegmentToSegment) {
   const Show s =
       show_with("spin: 0.9",

@@ -59,6 +59,28 @@ TEST(SpinningGas, GoOverIntoThoseWithoutSpin) {
   }
 }
 
+// The same gas comes to all holes of a mass, and brings all its light from nearer to them.
+TEST(SpinningGas, HaveOneFluxFarFromAllHoles) {
+  for (const double charge : {0.0, 0.3})
+    for (const bool plunging : {false, true}) {
+      const PageThorneProfile still(plunging, GasOrbits(ChargedHole{1, charge}));
+      double before = 0;
+      for (const double spin :
+           {1e-9, 0.5, 0.9, 0.94, charge ? 0.95 : 0.998, charge ? 0.951 : 0.999999})
+        for (const bool retrograde : {false, true}) {
+          const PageThorneProfile other(plunging, GasOrbits(hole_of(spin, charge), retrograde));
+          EXPECT_NEAR(other.greatest() * other.flux(1e10) / (still.greatest() * still.flux(1e10)),
+                      1, 1e-4)
+              << charge << ' ' << spin << ' ' << retrograde;
+          if (retrograde)
+            EXPECT_LE(other.greatest(), still.greatest() * (1 + 1e-7));
+          else
+            EXPECT_GT(other.greatest(), before);
+          if (!retrograde) before = other.greatest();
+        }
+    }
+}
+
 // Four-velocities have length 1, and shifts are inner products.
 TEST(SpinningGas, ShiftLightByTheMetric) {
   for (const double spin : {-0.9, -0.3, 0.4, 0.95})
