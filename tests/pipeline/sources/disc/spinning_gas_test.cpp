@@ -66,7 +66,7 @@ TEST(SpinningGas, HaveOneFluxFarFromAllHoles) {
       const PageThorneProfile still(plunging, GasOrbits(ChargedHole{1, charge}));
       double before = 0;
       for (const double spin :
-           {1e-9, 0.5, 0.9, 0.94, charge ? 0.95 : 0.998, charge ? 0.951 : 0.999999})
+           {1e-9, 0.5, 0.9, 0.94, charge > 0 ? 0.95 : 0.998, charge > 0 ? 0.951 : 0.999999})
         for (const bool retrograde : {false, true}) {
           const PageThorneProfile other(plunging, GasOrbits(hole_of(spin, charge), retrograde));
           EXPECT_NEAR(other.greatest() * other.flux(1e10) / (still.greatest() * still.flux(1e10)),
