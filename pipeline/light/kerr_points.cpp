@@ -292,6 +292,9 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
     double view = std::abs(n.by_row) * std::sin(n.delta) * 2 * pi / chart_.columns();
     double seen = at.value.by_row.cross(at.value.by_column).length();
     const double s = std::sin(n.delta);
+    // Neither of the two scales is more than this.
+    double stretched = std::hypot(at.value.by_row.length() / n.by_row,
+                                  at.value.by_column.length() * chart_.columns() / (2 * pi * s));
     SkyImage image;
     image.direction.v = {-std::cos(n.delta), -s * std::cos(n.eta), -s * std::sin(n.eta)};
     for (std::size_t k = begin; k < images.size(); ++k)
@@ -301,9 +304,11 @@ void KerrPoints::list_images(const V3d& source, double blur, double least_light,
     if (s < 0.02) {
       const KerrChart::Place place_there = chart_.place(n.delta, n.eta, chart_.edge(n.eta));
       view = 1, seen = place_there.by_delta.cross(place_there.across).length();
+      stretched = std::hypot(place_there.by_delta.length(), place_there.across.length());
     }
     // On a caustic it is as small as a source is wide.
     image.amplification = view / std::hypot(seen, 0.5 * blur * view);
+    image.speed = stretched * view / std::max(seen, 1e-9 * view);
     images.push_back(image);
   };
   for (const int number : bins_[static_cast<std::size_t>(

@@ -14,6 +14,8 @@ struct SkyImage {
   TetradDirection direction;
   double frequency_ratio;  // observed in the frame / emitted: 1/(1+z)
   double amplification;    // solid angle of the image / of the source; inf on the axis of a lens
+  // By how many radians an image that was listed moves for one of its source, or somewhat less.
+  double speed = 0;
 };
 
 // A PointBatch holds points of a sky.

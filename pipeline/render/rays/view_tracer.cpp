@@ -66,7 +66,10 @@ SkyImage out_of_lens(const Lens& lens, const SkyImage& image) {
   if (frame == V3d(0, 0, 0)) return image;
   const AberratedLight at = to_tetrad(frame, image.direction.v);
   const double ratio = at.frequency_ratio;
-  return {{at.direction}, image.frequency_ratio * ratio, image.amplification / (ratio * ratio)};
+  return {{at.direction},
+          image.frequency_ratio * ratio,
+          image.amplification / (ratio * ratio),
+          image.speed / ratio};
 }
 
 // The boost to an observer with celerity c is that to rest with -c (aberration.h).

@@ -112,36 +112,59 @@ void StarImageFinder::append(const SceneStar& catalogued, std::vector<StarImage>
 
 // Appends the images of a lens that has no orders.
 void StarImageFinder::append_listed(const SceneStar& star, std::vector<StarImage>& images) const {
-  thread_local std::vector<SkyImage> listed;
-  listed.clear();
+  thread_local std::vector<SkyImage> listed, trail;
   const double least = in_batches_ ? 1 / (star.flux * brightness_per_flux_) : 0;
   const V3d source = apply_transposed(axes_, star.direction.v);
-  points_->list_images(source, radius_of(star), least, listed);
-  double most = 0;
-  for (const SkyImage& image : listed) most = std::max(most, image.amplification);
-  // Next to a caustic an image moves so much faster than its source as it is brighter, and the mean over
-  // the times about a frame's is drawn, with the weights of a triangle: those of all frames add up to an
-  // even exposure.
-  constexpr double kMostParts = 256, kBright = 30;
   const V3d way = scene_.motion.turn.cross(source);
-  const int parts = static_cast<int>(std::clamp(
-      std::ceil(4 * way.length() * most / scene_.point_spread.least()), 1.0, kMostParts));
-  if (parts < 8 || most < kBright) {
-    for (const SkyImage& image : listed)
-      append_image(star, out_of_lens(*scene_.tracer.lens(), image), images);
+  // Lists the images at a part of the frame from this one, and returns how fast they move, in sigma a
+  // frame.
+  const auto list_at = [&](double time) {
+    listed.clear();
+    points_->list_images((source + way * time).normalized(), radius_of(star), least, listed);
+    double fastest = 0;
+    for (SkyImage& image : listed) {
+      image = out_of_lens(*scene_.tracer.lens(), image);
+      if (image.amplification > least)
+        fastest = std::max(fastest, image.speed / least_sigma_at(image.direction.v));
+    }
+    return fastest * way.length();
+  };
+  constexpr double kStill = 2;
+  if (!(list_at(0) > kStill)) {
+    for (const SkyImage& image : listed) append_image(star, image, images);
     return;
   }
-  listed.clear();
-  for (int k = 0; k < parts; ++k) {
-    const double time = (2 * k + 1.0) / parts - 1;
-    const std::size_t first = listed.size();
-    points_->list_images((source + way * time).normalized(), radius_of(star), least, listed);
-    for (std::size_t n = first; n < listed.size(); ++n) {
-      listed[n] = out_of_lens(*scene_.tracer.lens(), listed[n]);
-      listed[n].amplification *= 2 * (1 - std::abs(time)) / parts;
+  // Next to a caustic images move so fast, and are so bright, that the mean over the times about the
+  // frame's is drawn, with the weights of a triangle: those of all frames add up to an even exposure.
+  // Parts of the time are halved until no image moves far in one, and none comes or goes.
+  trail.clear();
+  struct Instant {
+    double time;
+    std::size_t images;
+  };
+  const auto add = [&](const auto& add_part, Instant from, Instant to) -> void {
+    constexpr double kShortest = 1.0 / 16384;
+    const double middle = (from.time + to.time) / 2, length = to.time - from.time;
+    const bool fast = list_at(middle) * length > kPieceSigmas;
+    const std::size_t number = listed.size();
+    if (length > kShortest && (fast || number != from.images || number != to.images)) {
+      add_part(add_part, from, {middle, number});
+      add_part(add_part, {middle, number}, to);
+      return;
     }
-  }
-  append_trail(star, listed, images);
+    for (SkyImage& image : listed) {
+      image.amplification *= (1 - std::abs(middle)) * length;
+      trail.push_back(image);
+    }
+  };
+  const auto instant = [&](double time) {
+    list_at(time);
+    return Instant{time, listed.size()};
+  };
+  const Instant now{0, listed.size()};
+  add(add, instant(-1), now);
+  add(add, now, instant(1));
+  append_trail(star, trail, images);
 }
 
 // Appends the images of the orders from `first` to before `end`.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tests/pipeline/render/stars/star_scene.h"
+#include "tests/pipeline/show/show_file.h"
 #include "trajectories/static_observer.h"
 
 namespace domefall {
@@ -312,6 +313,57 @@ TEST(StarTrail, HasTheSameLightAtEverySize) {
         EXPECT_NEAR(total / small, 1, 0.01) << size << " " << from_axis;
       }
     }
+}
+
+class SpinStarTrail : public ShowFile {};
+
+// Past a caustic about a spin a star's images race along the ring as rows of pieces without gaps, with the
+// mean light of the times about the frame.
+TEST_F(SpinStarTrail, HasNoGapsAndTheMeanLight) {
+  const Show show = read(
+      "black_hole: {mass_solar: 4e6, spin: 0.9}\nsize: [300, 300]\n"
+      "camera: {projection: rectilinear, fov_deg: 80, look_at: hole}\n"
+      "sky: {region_I: {background: black, stars: none}}\n"
+      "timeline: [{duration_s: 1, trajectory: {type: static, r: 20}}]\n");
+  FrameState state = frame_state(show, 0);
+  state.settings.sky[SkyRegion::kI].max_magnitude = 99;
+  const FrameScene still = scene_with(show, state);
+  // The place on the sky of the brightest of many pixels, next to the caustic.
+  V3d source(0, 0, 0);
+  double least = HUGE_VAL;
+  for (double x = 200; x < 300; x += 0.05) {
+    const ViewRay ray = still.tracer.trace(direction_at(state.projection, {x, 150.5}));
+    const double area = ray.scale_along * ray.scale_across;
+    if (ray.known && area < least) least = area, source = ray.sky_direction;
+  }
+  const V3d turn = V3d(0.3, -1, 0.5) * 2e-3;
+  const auto star_at = [&](double time) {
+    const V3d in_tetrad = apply_transposed(state.observer.sky_from_tetrad, source);
+    const V3d moved = (in_tetrad + turn.cross(in_tetrad) * time).normalized();
+    return SceneStar{{apply(state.observer.sky_from_tetrad, moved)}, 4, 1e-7, 6000, 1e-9};
+  };
+  const FrameScene moving = scene_with(show, state, {}, {turn});
+  std::vector<StarImage> trail;
+  StarImageFinder(moving, SkyRegion::kI).append(star_at(0), trail);
+  ASSERT_GT(trail.size(), 200u);
+  std::size_t alone = 0;
+  for (const StarImage& a : trail) {
+    int near = -1;  // but for itself
+    for (const StarImage& b : trail) near += std::hypot(a.x - b.x, a.y - b.y) < 1.5;
+    alone += near == 0;
+  }
+  EXPECT_LE(alone, 4u);
+  const StarImageFinder instants(still, SkyRegion::kI);
+  constexpr int kTimes = 4000;
+  double mean = 0;
+  std::vector<StarImage> images;
+  for (int k = 0; k < kTimes; ++k) {
+    const double time = (2 * k + 1.0) / kTimes - 1;
+    images.clear();
+    instants.append(star_at(time), images);
+    mean += 2 * (1 - std::abs(time)) / kTimes * total_light(images);
+  }
+  EXPECT_NEAR(total_light(trail) / mean, 1, 0.02);
 }
 
 }  // namespace
