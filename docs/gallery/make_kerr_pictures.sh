@@ -55,9 +55,9 @@ SHOW
   "$domefall" render "$out/disc_$1.yaml" --frames 0 --out "$out/disc_$1"
 }
 disc slow 0.001 '' 0.3 8
-disc fast 0.95 '' 2.3 8
+disc fast 0.95 '' 0 8
 disc against 0.95 ', retrograde: true' 0.3 8
-disc pole 0.95 '' 2.8 75
+disc pole 0.95 '' 0.3 75
 oiiotool "$out"/disc_{slow,fast,against,pole}/graded/*.png --mosaic 2x2 --ch R,G,B --resize 1400x980 \
   --compression jpeg:84 -o docs/gallery/kerr_discs.jpg
 
