@@ -181,10 +181,11 @@ void read_light(const Section& s, Disc& disc) {
     return PageThorneProfile(disc.plunging, orbits).greatest();
   };
   const double hotter = std::pow(greatest(disc.orbits) / greatest(without), 0.25 * 2 / 3);
-  if (!s.given("t_max_k")) disc.t_max_k *= hotter;
-  if (!s.given("luminance_cd_m2"))
-    disc.luminance *=
-        std::sqrt(blackbody_xyz(disc.t_max_k).y / blackbody_xyz(disc.t_max_k / hotter).y);
+  // By the default temperature, since cool gas that a show asks for would be brighter without bounds.
+  constexpr double kUsual = 3000;
+  if (s.find("t_max_k") == nullptr) disc.t_max_k *= hotter;
+  if (s.find("luminance_cd_m2") == nullptr)
+    disc.luminance *= std::sqrt(blackbody_xyz(kUsual * hotter).y / blackbody_xyz(kUsual).y);
 }
 
 std::optional<Disc> read_disc(const Section& show, const Show& to, const Lookup& lookup) {

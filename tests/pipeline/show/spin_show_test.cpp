@@ -70,6 +70,7 @@ TEST_F(SpinShow, HasADiscWhoseDefaultsFollowTheSpin) {
   EXPECT_NEAR(disc("0.9", "retrograde: true").t_max_k, 3000 * std::pow(0.7429, 2.0 / 3), 1);
   EXPECT_NEAR(disc("1e-9", "").t_max_k, 3000, 1e-3);
   EXPECT_EQ(disc("0", "").luminance, 1e-2);
+  EXPECT_EQ(disc("0.9", "t_max_k: 1000").luminance, usual.luminance);
   const Disc given = disc("0.9", "t_max_k: 3000, luminance_cd_m2: 1e-2");
   EXPECT_EQ(given.t_max_k, 3000);
   EXPECT_EQ(given.luminance, 1e-2);
