@@ -88,7 +88,7 @@ class GasRays {
     double psi, length;  // of its middle, and radians
     V3d at;
     double r, time;
-    double rising;
+    double rising;  // as in GasPlace
   };
   // A Layer is the gas of one step: the light of what is thin, and the disc's radius, ratio of the
   // frequency observed to that sent, and optical depth.

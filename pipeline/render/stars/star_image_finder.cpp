@@ -116,24 +116,23 @@ void StarImageFinder::append_listed(const SceneStar& star, std::vector<StarImage
   const double least = in_batches_ ? 1 / (star.flux * brightness_per_flux_) : 0;
   const V3d source = apply_transposed(axes_, star.direction.v);
   const V3d way = scene_.motion.turn.cross(source);
-  double brightest = 0;
   // Lists the images at a part of the frame from this one, and returns how fast they move, in sigma a
   // frame.
   const auto list_at = [&](double time) {
     listed.clear();
     points_->list_images((source + way * time).normalized(), radius_of(star), least, listed);
-    double fastest = brightest = 0;
+    double fastest = 0;
     for (SkyImage& image : listed) {
       image = out_of_lens(*scene_.tracer.lens(), image);
-      if (!(image.amplification > least)) continue;
-      brightest = std::max(brightest, image.amplification);
-      fastest = std::max(fastest, image.speed / least_sigma_at(image.direction.v));
+      if (image.amplification > least)
+        fastest = std::max(fastest, image.speed / least_sigma_at(image.direction.v));
     }
     return fastest * way.length();
   };
   // Where the sky turns fast all images move, and only those next to a caustic are not points.
   constexpr double kStill = 2, kBright = 30;
-  if (!(list_at(0) > kStill && brightest > kBright)) {
+  const auto bright = [](const SkyImage& image) { return image.amplification > kBright; };
+  if (!(list_at(0) > kStill && std::ranges::any_of(listed, bright))) {
     for (const SkyImage& image : listed) append_image(star, image, images);
     return;
   }

@@ -180,7 +180,8 @@ void read_light(const Section& s, Disc& disc) {
   const auto greatest = [&](const GasOrbits& orbits) {
     return PageThorneProfile(disc.plunging, orbits).greatest();
   };
-  const double hotter = std::pow(greatest(disc.orbits) / greatest(without), 0.25 * 2 / 3);
+  // Two thirds of the way: flux goes with T^4.
+  const double hotter = std::pow(greatest(disc.orbits) / greatest(without), 1.0 / 6);
   // By the default temperature, since cool gas that a show asks for would be brighter without bounds.
   constexpr double kUsual = 3000;
   if (s.find("t_max_k") == nullptr) disc.t_max_k *= hotter;

@@ -172,6 +172,7 @@ double PageThorneProfile::brought_by_quadrature(double r) const {
 // Up to a constant.
 double PageThorneProfile::stable_flux(double r) const {
   const double q2 = orbits_.charge_squared();
+  // Without the 1.5 its unit would not be that of the formula below.
   if (orbits_.spin() != 0)
     return (brought(r) + pull_) * orbits_.shear(r) * orbits_.circling(r) /
            (1.5 * r * r * orbits_.slowing_squared(r));
