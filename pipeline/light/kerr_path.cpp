@@ -84,12 +84,14 @@ void KerrPath<T>::set_shape(const KerrStart& start, const KerrRoots& roots) {
   const auto outer = static_cast<double>(1 / start.at.hole.horizon());
   direction_ = start.speed.v < 0 ? 1 : -1;
   const bool straight = disc < 0 || (to_sky_ && start.speed.v < 0);
+  // Next to light without kappa real roots may lie inside the inner horizon, where no path of these turns.
+  const bool passes = disc > 0 && !to_sky_ && start.kappa_less_edge <= 0;
   const double low = to_sky_ ? 0 : std::min(seen, outer), high = to_sky_ ? seen : outer;
   const double near = std::min(far_from_way(pair, low, high), far_from_way(other, low, high));
   const double apart = std::min({std::abs(pair - third), std::abs(pair - fourth)});
   const bool inside = start.at.delta() <= 0;
   const auto inner = static_cast<double>(1 / start.at.hole.inner_horizon());
-  if (roots.alike || (straight && (near > 0.4 * (high - low) || apart < 0.5 * near))) {
+  if (roots.alike || passes || (straight && (near > 0.4 * (high - low) || apart < 0.5 * near))) {
     shape_ = Shape::kPlain;
     first_ = -direction_ * seen;
     last_ = to_sky_ ? 0 : -direction_ * outer;
