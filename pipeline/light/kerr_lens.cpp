@@ -213,11 +213,12 @@ std::optional<BodyImage> KerrLens::body_image(double null_time, const BodyMotion
   return k < images.size() ? std::optional(images[k]) : std::nullopt;
 }
 
-std::vector<SpherePiece> KerrLens::sphere(double null_time, const BodyMotion& motion,
-                                          const BodyImage& image,
-                                          std::span<const BodyImage> earlier, double radius,
-                                          const std::function<double(const V3d&)>& spacing) const {
-  return kerr_image_of_sphere(charts_->at, null_time, motion, image, earlier, radius, spacing);
+RingedSphere KerrLens::sphere(double null_time, const BodyMotion& motion, const BodyImage& image,
+                              std::span<const BodyImage> earlier, double radius,
+                              const RingPlane& rings,
+                              const std::function<double(const V3d&)>& spacing) const {
+  return kerr_image_of_sphere(charts_->at, null_time, motion, image, earlier, radius, rings,
+                              spacing);
 }
 
 // From the nearest of a coarse grid of rays, by Newton's method on exact rays.

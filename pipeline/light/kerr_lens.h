@@ -46,10 +46,9 @@ class KerrLens : public Lens {
                                      double radius) const override;
   std::optional<BodyImage> body_image(double null_time, const BodyMotion& motion, int order,
                                       double radius) const override;
-  std::vector<SpherePiece> sphere(double null_time, const BodyMotion& motion,
-                                  const BodyImage& image, std::span<const BodyImage> earlier,
-                                  double radius,
-                                  const std::function<double(const V3d&)>& spacing) const override;
+  RingedSphere sphere(double null_time, const BodyMotion& motion, const BodyImage& image,
+                      std::span<const BodyImage> earlier, double radius, const RingPlane& rings,
+                      const std::function<double(const V3d&)>& spacing) const override;
 
  private:
   struct Seen;

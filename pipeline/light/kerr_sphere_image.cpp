@@ -50,16 +50,25 @@ bool is_in(const KerrPass& pass, std::span<const BodyImage> images, double near,
   });
 }
 
+// What is looked at: a sphere and its rings.
+struct Target {
+  double radius;  // M
+  const RingPlane& rings;
+
+  // How far it reaches from its middle, in radii.
+  double reach() const { return rings.edges.empty() ? 1 : rings.edges.back().second; }
+};
+
 class SphereNet {
  public:
-  SphereNet(const KerrBodyRays& rays, const KerrPass& middle, double radius, double side)
-      : rays_(rays), middle_(middle), radius_(radius), side_(side) {
+  SphereNet(const KerrBodyRays& rays, const KerrPass& middle, const Target& target, double side)
+      : rays_(rays), middle_(middle), target_(target), side_(side) {
     const KerrStretch stretch = kerr_stretch(middle);
     right_ = stretch.longer_view, up_ = stretch.shorter_view;
   }
 
   // Returns nothing where the image is one with one of `earlier`.
-  std::optional<std::vector<SpherePiece>> pieces(std::span<const BodyImage> earlier);
+  std::optional<RingedSphere> pieces(std::span<const BodyImage> earlier);
 
  private:
   struct Square {
@@ -77,25 +86,92 @@ class SphereNet {
   }
   const KerrBodyRays& rays_;
   const KerrPass& middle_;
-  double radius_, side_;
+  Target target_;
+  double side_;
   V3d right_, up_;
 };
 
-// Returns the piece of a place x, y of the disc, in radii, along two axes in the body's frame.
+constexpr double kLeastCosine = 0.05;
+
+// Returns a vector of the body's frame along the axes of the tetrad.
+V3d in_tetrad(const KerrBodyRays& rays, const KerrPass& pass, const V3d& own) {
+  return apply_transposed(rays.axes(), apply(kerr_axes(pass.body.at.place), own));
+}
+
+// Returns the piece of a place of the disc, in radii.
 SpherePiece piece_of(const KerrBodyRays& rays, const KerrPass& pass, const V3d& place,
                      double cosine, double solid_angle, double width) {
   const double beyond = place.length(), least = std::sqrt((1 - cosine) * (1 + cosine));
   const V3d beside = beyond > 0 ? place * (std::min(beyond, least) / beyond) : place;
   const double up = std::sqrt(std::max(0.0, 1 - beside.length2()));
-  const V3d own = beside + pass.leaving * up;
-  const V3d seen = apply_transposed(rays.axes(), apply(kerr_axes(pass.body.at.place), own));
-  return {{{pass.view}, 1 / pass.frequency, solid_angle}, cosine, seen, width / cosine};
+  return {{{pass.view}, 1 / pass.frequency, solid_angle},
+          cosine,
+          in_tetrad(rays, pass, beside + pass.leaving * up),
+          width / cosine};
 }
 
-std::optional<std::vector<SpherePiece>> SphereNet::pieces(std::span<const BodyImage> earlier) {
+// A Patch is a small rectangle of view, as the body has it: its middle, in radii, and halves of its sides
+// along and across the ray's stretch.
+struct Patch {
+  V3d place;
+  double half_along, half_across, solid_angle, width;
+};
+
+// Appends what a patch shows of a sphere with rings, by samples.  Next to the body light goes straight.
+void append_ringed(const KerrBodyRays& rays, const KerrPass& pass, const KerrStretch& stretch,
+                   const Patch& patch, const RingPlane& rings, RingedSphere& pieces) {
+  constexpr int kSamples = 12;  // along each side
+  struct Part {
+    int count = 0;
+    double cosine = 0;
+    V3d place{0, 0, 0};
+    void add(const V3d& at, double its_cosine) { ++count, place += at, cosine += its_cosine; }
+  };
+  // Of the sphere, bare and through each ring, and of each ring.
+  std::vector<Part> sphere(rings.edges.size() + 1), around(rings.edges.size());
+  const V3d leaving = in_tetrad(rays, pass, pass.leaving),
+            middle = in_tetrad(rays, pass, patch.place),
+            along = in_tetrad(rays, pass, stretch.along * patch.half_along),
+            across = in_tetrad(rays, pass, stretch.across * patch.half_across);
+  const double steep = leaving.dot(rings.normal);
+  const auto part = [](int k) { return (2 * k + 1.0) / kSamples - 1; };
+  for (int i = 0; i < kSamples; ++i)
+    for (int j = 0; j < kSamples; ++j) {
+      const V3d at = middle + along * part(i) + across * part(j);
+      const double way = -at.dot(rings.normal) / steep;
+      const V3d crossed = at + leaving * way;
+      const int ring = steep != 0 ? rings.ring_at(crossed) : -1;
+      const double up2 = 1 - at.length2();
+      const bool hits = up2 > 0, before = ring >= 0 && way > 0;
+      if (hits)
+        sphere[before ? static_cast<std::size_t>(ring) + 1 : 0].add(at + leaving * std::sqrt(up2),
+                                                                    std::sqrt(up2));
+      if (ring >= 0 && (before || !hits)) around[static_cast<std::size_t>(ring)].add(crossed, 0);
+    }
+  const auto image = [&](const Part& of) {
+    return SkyImage{
+        {pass.view}, 1 / pass.frequency, patch.solid_angle * of.count / (kSamples * kSamples)};
+  };
+  for (std::size_t k = 0; k < sphere.size(); ++k) {
+    if (sphere[k].count == 0) continue;
+    const double cosine = std::max(sphere[k].cosine / sphere[k].count, kLeastCosine);
+    pieces.sphere.push_back({image(sphere[k]),
+                             cosine,
+                             sphere[k].place.normalized(),
+                             patch.width / cosine,
+                             {static_cast<int>(k) - 1, k > 0 ? std::abs(steep) : 1}});
+  }
+  for (std::size_t k = 0; k < around.size(); ++k)
+    if (around[k].count > 0)
+      pieces.rings.push_back({image(around[k]), static_cast<int>(k),
+                              around[k].place / around[k].count, leaving,
+                              patch.width / std::max(std::abs(steep), kLeastCosine)});
+}
+
+std::optional<RingedSphere> SphereNet::pieces(std::span<const BodyImage> earlier) {
   constexpr std::size_t kMost = 1000000;
-  constexpr double kLeastCosine = 0.05;
-  std::vector<SpherePiece> pieces;
+  const double reach = target_.reach();
+  RingedSphere pieces;
   std::set<std::pair<int, int>> seen{{0, 0}};
   std::deque<Square> left{{0, 0, middle_.mino, middle_.tau}};
   for (; !left.empty() && seen.size() < kMost; left.pop_front()) {
@@ -103,14 +179,21 @@ std::optional<std::vector<SpherePiece>> SphereNet::pieces(std::span<const BodyIm
     const auto pass = rays_.nearest(view(at.i, at.j), at.mino, at.tau);
     if (!pass) continue;
     const KerrStretch stretch = kerr_stretch(*pass);
-    const double side = side_at(at.i, at.j), half = side / 2 / radius_;
-    const V3d place = pass->off / -radius_;
-    const Shown shown = shown_of_disc(place.dot(stretch.along), place.dot(stretch.across),
-                                      stretch.longer * half, stretch.shorter * half);
+    const double side = side_at(at.i, at.j), half = side / 2 / target_.radius;
+    const V3d place = pass->off / -target_.radius;
+    const Shown shown =
+        shown_of_disc(place.dot(stretch.along) / reach, place.dot(stretch.across) / reach,
+                      stretch.longer * half / reach, stretch.shorter * half / reach);
     if (!(shown.part > 0)) continue;
-    if (is_in(*pass, earlier, side_, radius_)) return std::nullopt;
-    pieces.push_back(piece_of(rays_, *pass, place, std::max(shown.cosine, kLeastCosine),
-                              shown.part * side * side, 2 * stretch.longer * half));
+    if (is_in(*pass, earlier, side_, reach * target_.radius)) return std::nullopt;
+    const double width = 2 * stretch.longer * half;
+    if (target_.rings.edges.empty())
+      pieces.sphere.push_back(piece_of(rays_, *pass, place, std::max(shown.cosine, kLeastCosine),
+                                       shown.part * side * side, width));
+    else
+      append_ringed(rays_, *pass, stretch,
+                    {place, stretch.longer * half, stretch.shorter * half, side * side, width},
+                    target_.rings, pieces);
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j)
         if (seen.emplace(at.i + i, at.j + j).second)
@@ -124,10 +207,10 @@ std::optional<std::vector<SpherePiece>> SphereNet::pieces(std::span<const BodyIm
 // taken to first order.
 class Ribbon {
  public:
-  Ribbon(const KerrBodyRays& rays, const KerrPass& middle, double radius, double spacing)
-      : rays_(rays), radius_(radius), spacing_(spacing) {
+  Ribbon(const KerrBodyRays& rays, const KerrPass& middle, const Target& target, double spacing)
+      : rays_(rays), target_(target), spacing_(spacing) {
     constexpr double kStrips = 12;
-    const double length = radius / kerr_stretch(middle).shorter;
+    const double length = target.radius / kerr_stretch(middle).shorter;
     step_ = std::min(spacing, std::max(length / kStrips, 1e-3 * spacing));
     line_.push_back(middle);
     const bool ring = go(1);
@@ -137,7 +220,7 @@ class Ribbon {
 
   const std::vector<KerrPass>& line() const { return line_; }
   double step() const { return step_; }
-  std::vector<SpherePiece> pieces() const;
+  RingedSphere pieces() const;
 
  private:
   // Goes on from the last ray to the end of the image.  Returns whether that is a ring.
@@ -145,11 +228,12 @@ class Ribbon {
   std::optional<KerrPass> next(const KerrPass& from, const V3d& way) const;
   // Where a ray passes the sphere across the ribbon's line, in radii.
   double place(const KerrPass& pass) const {
-    return -pass.off.dot(kerr_stretch(pass).across) / radius_;
+    return -pass.off.dot(kerr_stretch(pass).across) / target_.radius;
   }
 
   const KerrBodyRays& rays_;
-  double radius_, spacing_, step_ = 0;
+  Target target_;
+  double spacing_, step_ = 0;
   std::vector<KerrPass> line_;
 };
 
@@ -166,7 +250,7 @@ bool Ribbon::go(double sense) {
                     most = begun + static_cast<std::size_t>(2 * std::numbers::pi / step_);
   while (line_.size() < most) {
     const auto pass = next(line_.back(), way * step_);
-    if (!pass || !(std::abs(place(*pass)) < 1)) return false;
+    if (!pass || !(std::abs(place(*pass)) < target_.reach())) return false;
     const V3d onward = kerr_stretch(*pass).shorter_view;
     way = onward * (onward.dot(pass->view - line_.back().view) < 0 ? -1 : 1);
     line_.push_back(*pass);
@@ -185,34 +269,44 @@ std::optional<KerrPass> Ribbon::next(const KerrPass& from, const V3d& way) const
     if (!pass) return std::nullopt;
     const KerrStretch stretch = kerr_stretch(*pass);
     const double off = pass->off.dot(stretch.along);
-    if (std::abs(off) < kEnough * radius_) return pass;
+    if (std::abs(off) < kEnough * target_.radius) return pass;
     view = turned_view(*pass, rays_.at(),
                        turn_of(*pass, stretch.longer_view * (off / stretch.longer)), 1);
   }
   return std::nullopt;
 }
 
-std::vector<SpherePiece> Ribbon::pieces() const {
-  std::vector<SpherePiece> pieces;
+RingedSphere Ribbon::pieces() const {
+  const bool ringed = !target_.rings.edges.empty();
+  RingedSphere pieces;
   for (std::size_t k = 0; k < line_.size(); ++k) {
     const KerrPass& middle = line_[k];
     const KerrStretch stretch = kerr_stretch(middle);
     const auto to = [&](std::size_t other) { return (line_[other].view - middle.view).length(); };
     const double before = k > 0 ? to(k - 1) : step_,
                  after = k + 1 < line_.size() ? to(k + 1) : step_, length = (before + after) / 2;
-    const double t = place(middle), chord = std::sqrt((1 - t) * (1 + t)),
-                 half = radius_ * chord / stretch.longer;
+    const double reach = target_.reach(), t = place(middle),
+                 chord = std::sqrt((reach - t) * (reach + t)),
+                 half = target_.radius * chord / stretch.longer;
     const int parts = std::max(1, static_cast<int>(std::ceil(2 * half / spacing_)));
+    const double solid_angle = length * 2 * half / parts,
+                 width = spacing_ * stretch.longer / target_.radius;
     for (int j = 0; j < parts; ++j) {
       const double u = (2 * j + 1.0) / parts - 1;
       KerrPass pass = middle;
       pass.view =
           turned_view(middle, rays_.at(), turn_of(middle, stretch.longer_view * (u * half)), 1);
+      const V3d place = stretch.across * t + stretch.along * (u * chord);
+      if (ringed) {
+        append_ringed(rays_, pass, stretch,
+                      {place, chord / parts, length * stretch.shorter / target_.radius / 2,
+                       solid_angle, width},
+                      target_.rings, pieces);
+        continue;
+      }
       const double cosine =
           chord * (parts > 1 ? std::sqrt((1 - u) * (1 + u)) : std::numbers::pi / 4);
-      pieces.push_back(piece_of(rays_, pass, stretch.across * t + stretch.along * (u * chord),
-                                cosine, length * 2 * half / parts,
-                                spacing_ * stretch.longer / radius_));
+      pieces.sphere.push_back(piece_of(rays_, pass, place, cosine, solid_angle, width));
     }
   }
   return pieces;
@@ -220,10 +314,10 @@ std::vector<SpherePiece> Ribbon::pieces() const {
 
 }  // namespace
 
-std::vector<SpherePiece> kerr_image_of_sphere(const KerrPlace& at, double null_time,
-                                              const BodyMotion& motion, const BodyImage& image,
-                                              std::span<const BodyImage> earlier, double radius,
-                                              const std::function<double(const V3d&)>& spacing) {
+RingedSphere kerr_image_of_sphere(const KerrPlace& at, double null_time, const BodyMotion& motion,
+                                  const BodyImage& image, std::span<const BodyImage> earlier,
+                                  double radius, const RingPlane& rings,
+                                  const std::function<double(const V3d&)>& spacing) {
   const KerrBodyRays rays(at, null_time, motion);
   const auto middle = rays.meet(image.direction, image.mino, image.proper_time);
   if (!middle) return {};
@@ -232,16 +326,17 @@ std::vector<SpherePiece> kerr_image_of_sphere(const KerrPlace& at, double null_t
                side = std::min(least, kerr_size_of_sphere(image, radius) / kAcross);
   const KerrDirection n = kerr_direction_of(image.direction);
   const auto delta = static_cast<double>(n.delta), eta = static_cast<double>(n.eta);
-  std::vector<SpherePiece> one_with_another{
-      {{{image.direction}, image.frequency_ratio, 0}, 1, image.direction}};
+  const RingedSphere one_with_another{
+      {{{{image.direction}, image.frequency_ratio, 0}, 1, image.direction}}, {}};
+  const Target target{radius, rings};
   if (middle->event.swept > kWound && std::abs(delta - kerr_edge_delta(at, eta)) < kNarrow * side) {
-    const Ribbon ribbon(rays, *middle, radius, least);
+    const Ribbon ribbon(rays, *middle, target, least);
     const bool known = std::ranges::any_of(ribbon.line(), [&](const KerrPass& pass) {
-      return is_in(pass, earlier, ribbon.step(), radius);
+      return is_in(pass, earlier, ribbon.step(), target.reach() * radius);
     });
     return known ? one_with_another : ribbon.pieces();
   }
-  if (auto pieces = SphereNet(rays, *middle, radius, side).pieces(earlier)) return *pieces;
+  if (auto pieces = SphereNet(rays, *middle, target, side).pieces(earlier)) return *pieces;
   return one_with_another;
 }
 

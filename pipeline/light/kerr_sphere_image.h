@@ -16,12 +16,13 @@
 
 namespace domefall {
 
-// Returns the pieces of an image (image_of_sphere).  `earlier` has the images whose pieces are already
-// there.  Where this image is one with one of them, a single piece without light is returned.  Images of
-// light that winds around the hole, which are thin beside the spacing, are lines along the silhouette's edge.
-std::vector<SpherePiece> kerr_image_of_sphere(const KerrPlace& at, double null_time,
-                                              const BodyMotion& motion, const BodyImage& image,
-                                              std::span<const BodyImage> earlier, double radius,
-                                              const std::function<double(const V3d&)>& spacing);
+// Returns the pieces of an image (image_of_sphere), and of its rings.  `earlier` has the images whose
+// pieces are already there.  Where this image is one with one of them, a single piece without light is
+// returned.  Images of light that winds around the hole, which are thin beside the spacing, are lines along
+// the silhouette's edge.
+RingedSphere kerr_image_of_sphere(const KerrPlace& at, double null_time, const BodyMotion& motion,
+                                  const BodyImage& image, std::span<const BodyImage> earlier,
+                                  double radius, const RingPlane& rings,
+                                  const std::function<double(const V3d&)>& spacing);
 
 }  // namespace domefall

@@ -162,9 +162,9 @@ class Lens {
   // and the pieces of one of them, of which those of `earlier` are already there (kerr_sphere_image.h).
   virtual bool lists_bodies() const { return false; }
   virtual std::vector<BodyImage> body_images(double, const BodyMotion&, double) const { return {}; }
-  virtual std::vector<SpherePiece> sphere(double, const BodyMotion&, const BodyImage&,
-                                          std::span<const BodyImage>, double,
-                                          const std::function<double(const V3d&)>&) const {
+  virtual RingedSphere sphere(double, const BodyMotion&, const BodyImage&,
+                              std::span<const BodyImage>, double, const RingPlane&,
+                              const std::function<double(const V3d&)>&) const {
     return {};
   }
 

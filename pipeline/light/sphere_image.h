@@ -7,7 +7,9 @@
 // sphere is next to the axis, and a ring where the axis goes through it.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "pipeline/light/body_image.h"
@@ -33,6 +35,35 @@ struct SpherePiece {
   double width =
       0;  // of what is seen of the sphere within the spacing, where it is widest, in radii
   RingCrossing through{};
+};
+
+// A RingPlane has the rings of a sphere, from the inmost one on.
+struct RingPlane {
+  V3d normal{0, 0, 1};                           // unit, along the axes of the tetrad
+  std::vector<std::pair<double, double>> edges;  // of each ring, in radii of the sphere
+
+  // Returns which of them a place has, in radii, or -1.
+  int ring_at(const V3d& place) const {
+    const double radius = place.length();
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      if (radius > edges[k].first && radius < edges[k].second) return static_cast<int>(k);
+    return -1;
+  }
+};
+
+// A RingPiece is a piece of a ring's image, like a SpherePiece.
+struct RingPiece {
+  SkyImage at;
+  int ring;
+  V3d place, leaving;  // in radii; unit, the direction of its light in the body's frame
+  double width;        // SpherePiece's
+};
+
+// A RingedSphere is the image of a sphere with rings, each without what the other hides, as light goes
+// straight next to the body.
+struct RingedSphere {
+  std::vector<SpherePiece> sphere;
+  std::vector<RingPiece> rings;
 };
 
 // Returns the direction in which light left the body, in its own frame, that came in the plane of R

@@ -129,20 +129,13 @@ std::optional<Chord<Traced>> chord_in(const std::vector<Traced>& traced, const V
   return std::nullopt;
 }
 
-int ring_at(const RingPlane& rings, const V3d& place) {
-  const double radius = place.length();
-  for (std::size_t k = 0; k < rings.edges.size(); ++k)
-    if (radius > rings.edges[k].first && radius < rings.edges[k].second) return static_cast<int>(k);
-  return -1;
-}
-
 // Returns the ring through which the light of a sphere comes at this angle from the hole.
 RingCrossing crossing_at(const RingChord& chord, const RingPlane& rings, double angle) {
   std::vector<double> found;
   chord.add_roots([angle](const RingNode& node) { return node.angle - angle; }, found);
   for (const double w : found) {
     const RingNode node = chord.at(w);
-    const int ring = ring_at(rings, node.place);
+    const int ring = rings.ring_at(node.place);
     if (ring >= 0 && node.place.dot(node.leaving) > 0)
       return {ring, std::abs(node.leaving.dot(rings.normal))};
   }
@@ -203,7 +196,7 @@ void append_rings(const RingChord& chord, const std::optional<SphereChord>& sphe
   const double count = pieces_along(chord.line, spacing);
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
     const RingNode middle = chord.at((cuts[k] + cuts[k + 1]) / 2);
-    const int ring = ring_at(rings, middle.place);
+    const int ring = rings.ring_at(middle.place);
     const bool is_behind =
         middle.angle > low && middle.angle < high && middle.place.dot(middle.leaving) < 0;
     if (ring < 0 || is_behind) continue;

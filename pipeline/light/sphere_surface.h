@@ -29,20 +29,6 @@ struct SphereView {
   double r;
 };
 
-// A RingPlane has the rings of a sphere, from the inmost one on.
-struct RingPlane {
-  V3d normal;                                    // unit, along the axes of the tetrad
-  std::vector<std::pair<double, double>> edges;  // of each ring, in radii of the sphere
-};
-
-// A RingPiece is a piece of a ring's image, like a SpherePiece.
-struct RingPiece {
-  SkyImage at;
-  int ring;
-  V3d place, leaving;  // in radii; unit, the direction of its light in the body's frame
-  double width;        // SpherePiece's
-};
-
 // Returns the image of one order in pieces, as image_of_sphere does.  Each place is seen where it was
 // when its light left, and where the ray leaves the surface outwards.  Nothing is returned where a
 // part of the sphere is in the hole or does not shine.  Measured against rays that are followed by steps,
@@ -51,12 +37,7 @@ std::optional<std::vector<SpherePiece>> traced_sphere(
     const SphereView& view, const BodyMotion& motion, const BodyImage& image, double radius,
     const std::function<double(const V3d&)>& spacing);
 
-// Returns the image of one order of a sphere with rings, each without what the other hides, as light
-// goes straight next to the body.
-struct RingedSphere {
-  std::vector<SpherePiece> sphere;
-  std::vector<RingPiece> rings;
-};
+// Returns the same of a sphere with rings.
 std::optional<RingedSphere> traced_with_rings(const SphereView& view, const BodyMotion& motion,
                                               const BodyImage& image, double radius,
                                               const RingPlane& rings,

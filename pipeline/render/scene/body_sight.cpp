@@ -167,10 +167,9 @@ RingedSphere BodySight::sphere(const Body& body, const BodyImage& image, const B
       if (one.direction == image.direction) break;
       if (size_of(one, radius) > spacing(one.direction)) earlier.push_back(one);
     }
-    return {lens_->sphere(observer_.null_time,
-                          motion_of(observer_.spacetime, body, observer_.sky_from_tetrad), image,
-                          earlier, radius, spacing),
-            {}};
+    return lens_->sphere(observer_.null_time,
+                         motion_of(observer_.spacetime, body, observer_.sky_from_tetrad), image,
+                         earlier, radius, surface.rings(), spacing);
   }
   const double part = radius / image.r;
   // Two orders that meet in a ring are drawn in one way.

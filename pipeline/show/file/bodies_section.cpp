@@ -286,10 +286,6 @@ std::optional<BodyRing> read_ring(const Item& item, const std::vector<BodyRing>&
 // Reads one ring, or a list of them.
 void read_rings(const Item& item, const Spacetime& spacetime, Body& body) {
   if (spacetime.is<Wormhole>()) item.fail("are about bodies near a hole");
-  if (spacetime.is<SpinningHole>()) {
-    item.fail("are not drawn about a hole that spins");
-    return;
-  }
   const auto add = [&](const Item& one) {
     if (const auto ring = read_ring(one, body.rings)) body.rings.push_back(*ring);
   };

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "pipeline/light/kerr_sphere_image.h"
 #include "pipeline/light/kerr_view.h"
+#include "pipeline/light/sphere_surface.h"
 #include "tests/pipeline/light/resting_body.h"
 #include "trajectories/kerr_orbit.h"
 
@@ -181,10 +183,64 @@ TEST(KerrBodyImages, AreSeenWithinTheHole) {
   for (const BodyImage& image : within) EXPECT_TRUE(std::isfinite(image.frequency_ratio));
 }
 
-double light_of(const std::vector<SpherePiece>& pieces) {
+template <class Piece>
+double light_of(const std::vector<Piece>& pieces) {
   double sum = 0;
-  for (const SpherePiece& piece : pieces) sum += piece.at.amplification;
+  for (const Piece& piece : pieces) sum += piece.at.amplification;
   return sum;
+}
+
+// What is seen of a sphere with two rings: the sphere, bare and through each of them, and those, with the
+// means of their places.
+struct RingedLight {
+  explicit RingedLight(const RingedSphere& seen) {
+    place.fill(V3d(0, 0, 0));
+    for (const SpherePiece& piece : seen.sphere)
+      add(static_cast<std::size_t>(piece.through.ring + 1), piece);
+    for (const RingPiece& piece : seen.rings) add(static_cast<std::size_t>(piece.ring + 3), piece);
+    for (std::size_t k = 0; k < light.size(); ++k)
+      if (light[k] > 0) place[k] /= light[k];
+  }
+  template <class Piece>
+  void add(std::size_t k, const Piece& piece) {
+    light[k] += piece.at.amplification, place[k] += piece.place * piece.at.amplification;
+  }
+  std::array<double, 5> light{};
+  std::array<V3d, 5> place;
+};
+
+// The second image against that near a hole without a spin, and the third, which is thin, as a net against
+// a line along the edge.
+TEST(KerrBodyImages, HaveRings) {
+  const ChargedHole hole(1, 0.4);
+  const Spacetime spacetime{hole};
+  const KerrPlace at{{1e-9L, 0.4L}, 20, 1.1};
+  const V3d axis = V3d(0.3, -0.9, 0.2).normalized(), start = axis.cross(V3d(0, 0, 1)).normalized();
+  const BodyMotion motion = circling_body(hole, 8, axis, start);
+  const ChargedPlaceView view{hole, 20};
+  const RingPlane rings{V3d(0.3, 0.5, 0.8).normalized(), {{1.3, 1.7}, {1.8, 2.2}}};
+  constexpr double kRadius = 0.1;
+  const auto images = kerr_body_images(at, 50, motion, kRadius);
+  ASSERT_GE(images.size(), 3U);
+  const auto seen = [&](const BodyImage& image, double parts) {
+    const double spacing = kerr_size_of_sphere(image, kRadius) / parts;
+    return RingedLight(kerr_image_of_sphere(at, 50, motion, image, {}, kRadius, rings,
+                                            [=](const V3d&) { return spacing; }));
+  };
+  const auto own = image_of_body(view, 50, motion, 1, kRadius);
+  const auto expected = traced_with_rings(
+      {[&](double r, double psi) { return seen_place(view, 50, r, psi); }, spacetime, 20}, motion,
+      own.value(), kRadius, rings,
+      [spacing = size_of_sphere(*own, kRadius) / 40](const V3d&) { return spacing; });
+  ASSERT_TRUE(expected);
+  const RingedLight a(*expected), b = seen(images[1], 40);
+  for (std::size_t k = 0; k < a.light.size(); ++k) {
+    EXPECT_NEAR(b.light[k] / a.light[0], a.light[k] / a.light[0], 0.02) << k;
+    EXPECT_LT((b.place[k] - a.place[k]).length(), 0.05) << k;
+  }
+  const RingedLight net = seen(images[2], 200), line = seen(images[2], 1);
+  for (std::size_t k = 0; k < net.light.size(); ++k)
+    EXPECT_NEAR(line.light[k] / net.light[0], net.light[k] / net.light[0], 0.1) << k;
 }
 
 // A sphere's image has the light of its first order where it is small, and is an arc behind the hole.
@@ -195,8 +251,10 @@ TEST(KerrBodyImages, OfSpheresAreTracedRayByRay) {
   constexpr double kRadius = 0.05;
   const auto images = kerr_body_images(at, 10, motion, kRadius);
   for (std::size_t k = 0; k < 2; ++k) {
-    const auto pieces = kerr_image_of_sphere(at, 10, motion, images.at(k), {}, kRadius,
-                                             [](const V3d&) { return 1e-4; });
+    const auto pieces =
+        kerr_image_of_sphere(at, 10, motion, images.at(k), {}, kRadius, {}, [](const V3d&) {
+          return 1e-4;
+        }).sphere;
     for (const SpherePiece& piece : pieces) {
       EXPECT_NEAR(piece.place.length(), 1, 1e-9);
       EXPECT_NEAR(piece.at.frequency_ratio / images[k].frequency_ratio, 1, 0.02);
@@ -215,8 +273,10 @@ TEST(KerrBodyImages, AreSeenOnTheAxis) {
     auto images = kerr_body_images(at, 0, motion, kRadius);
     for (std::size_t k = 0; k < std::min<std::size_t>(images.size(), 2); ++k) {
       const double first_order = images[k].solid_angle_per_area * pi * kRadius * kRadius;
-      const auto pieces = kerr_image_of_sphere(at, 0, motion, images[k], {}, kRadius,
-                                               [](const V3d&) { return 1e-3; });
+      const auto pieces =
+          kerr_image_of_sphere(at, 0, motion, images[k], {}, kRadius, {}, [](const V3d&) {
+            return 1e-3;
+          }).sphere;
       EXPECT_NEAR(light_of(pieces) / first_order, 1, 0.03) << theta << ' ' << k;
     }
     return images;
@@ -242,8 +302,9 @@ TEST(KerrBodyImages, OfWoundLightFollowTheEdge) {
     // Of those with psi > 8 the net has few squares across.
     if (image.psi < 5 || image.psi > 8) continue;
     const auto pieces_by = [&](double spacing) {
-      return kerr_image_of_sphere(at, 0, motion, image, {}, kRadius,
-                                  [=](const V3d&) { return spacing; });
+      return kerr_image_of_sphere(at, 0, motion, image, {}, kRadius, {},
+                                  [=](const V3d&) { return spacing; })
+          .sphere;
     };
     const auto net = pieces_by(4e-4), line = pieces_by(0.01);
     const auto length = [](const std::vector<SpherePiece>& pieces) {

@@ -176,7 +176,7 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   has(body("r: 1.5"), "must exceed 1.5578");
   has(body("r: 9, inclination_deg: 5"), "which orbits about a spin do not keep");
   has(body("elements: {}"), "an orbit about a hole without spin; give a trajectory");
-  has(body("r: 9, radius: 1, rings: {inner: 2, outer: 3}"), "not drawn about a hole that spins");
+  has(body("r: 3, radius: 1, rings: {inner: 1.5, outer: 3}"), "reach to 3 M from the body");
   has(body("trajectory: {type: static, r: 1.9}"), "within the ergosphere nothing rests");
   has(body("trajectory: {type: static, r: 1.5, dragged: true}, radius: 0.1"), "the horizon is at");
   has(complaint_of("{type: static, r: 1.9}"),
