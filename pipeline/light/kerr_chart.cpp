@@ -61,9 +61,11 @@ V3d across(const V3d& v, const V3d& unit) { return v - unit * v.dot(unit); }
 
 }  // namespace
 
-KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky)
-    : grid_(at, sky, sky == KerrEdge::kSilhouette ? pi : 0, at.delta() < 0 ? kRowsInside : kRows,
-            at.hole.horizon_distance() < kFast ? kColumnsOfFast : kColumns),
+KerrChart::KerrChart(const KerrPlace& at, KerrEdge sky, int stride)
+    : stride_(stride),
+      grid_(at, sky, sky == KerrEdge::kSilhouette ? pi : 0,
+            (at.delta() < 0 ? kRowsInside : kRows) / stride,
+            (at.hole.horizon_distance() < kFast ? kColumnsOfFast : kColumns) / stride),
       energy_(at) {
   constexpr int kGuard = KerrGrid::kGuard;
   nodes_.resize(grid_.nodes());
@@ -136,7 +138,7 @@ double KerrChart::error(double row, double column) const {
 
 KerrChart::Place KerrChart::place(double delta, double eta, const Edge& edge) const {
   const KerrGrid::Place in = grid_.place(delta, eta, edge);
-  if (!(in.row >= 0) || error(in.row, in.column) > kRough) return exact(delta, eta, edge);
+  if (!(in.row >= 0) || error(in.row, in.column) > rough()) return exact(delta, eta, edge);
   const Value at = value(std::min(in.row, static_cast<double>(rows())), in.column);
   Place place{at.sky, at.by_row * in.row_by_delta, {}};
   const double sine = std::sin(delta);
@@ -146,7 +148,7 @@ KerrChart::Place KerrChart::place(double delta, double eta, const Edge& edge) co
     const KerrGrid::Place there = grid_.place(delta, quarter, this->edge(quarter));
     const double row = std::min(there.row, rows() - 1e-9);
     // Where sky III is no larger than this, there may be none of it a quarter turn on.
-    if (!(row >= 0) || error(row, there.column) > kRough) return exact(delta, eta, edge);
+    if (!(row >= 0) || error(row, there.column) > rough()) return exact(delta, eta, edge);
     place.across = this->value(row, there.column).by_row * there.row_by_delta;
     return place;
   }

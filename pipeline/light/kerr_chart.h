@@ -18,11 +18,10 @@ namespace domefall {
 class KerrChart {
  public:
   static constexpr double kLeast = KerrGrid::kLeast;
-  // Where error() is larger (radians), exact rays are followed instead.
-  static constexpr double kRough = 3e-5;
 
-  // The sky is that of region I or III.  For III the observer must be between the horizons.
-  KerrChart(const KerrPlace& at, KerrEdge sky);
+  // The sky is that of region I or III.  For III the observer must be between the horizons.  Cells are wider
+  // by `stride` (kerr_stride()).
+  KerrChart(const KerrPlace& at, KerrEdge sky, int stride = 1);
 
   // Returns delta of the edge at eta, and its derivative.
   using Edge = KerrGrid::Edge;
@@ -51,6 +50,9 @@ class KerrChart {
   // Returns by how much polynomials of six and of eight nodes differ (radians), at most, in the middles of
   // its cell and of those around it, which is more than the chart's error there.
   double error(double row, double column) const;
+  // Where error() is larger, exact rays are followed instead.
+  double rough() const { return 3e-5 * stride_ * stride_; }
+  int stride() const { return stride_; }
 
   // Returns the frequency seen of light from a direction, over that sent.
   double frequency_ratio(double delta, double eta) const {
@@ -65,6 +67,7 @@ class KerrChart {
   Value value_of(double row, double column) const;
   Place exact(double delta, double eta, const Edge& edge) const;
 
+  int stride_;
   KerrGrid grid_;
   KerrEnergy energy_;
   std::vector<std::array<double, 4>> nodes_;  // TracedKerr's undragged and dragged

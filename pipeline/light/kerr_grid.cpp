@@ -15,6 +15,10 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
+// A dome of 1k has pixels of 0.003.  Polynomials of eight err by 2^8 times as much in cells twice as wide,
+// and where that is too much exact rays are followed.
+int kerr_stride(double pixel) { return pixel < 0.004 ? 1 : pixel < 0.016 ? 2 : 4; }
+
 KerrEdgeCurve::KerrEdgeCurve(const KerrPlace& at, KerrEdge edge) {
   deltas_.reserve(kEdges);
   for (int k = 0; k < kEdges; ++k) deltas_.push_back(kerr_edge_delta(at, kTurn * k / kEdges, edge));

@@ -29,6 +29,9 @@ class KerrEdgeCurve {
   std::vector<double> deltas_;  // evenly in eta
 };
 
+// Returns how many times wider, and higher, cells may be if pixels are so many radians wide.
+int kerr_stride(double pixel);
+
 class KerrGrid {
  public:
   // Directions nearer to the edge than 2 e^kLeast of the way are not in it.

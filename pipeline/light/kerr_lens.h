@@ -12,11 +12,13 @@ namespace domefall {
 // The charts of one place, which observers share who have the same.
 struct KerrCharts {
   KerrPlace at;
+  int stride;                                    // of charts and plane
   std::shared_ptr<const KerrChart> own, beyond;  // of region I, and of III between the horizons
   std::shared_ptr<KerrPlaneKeeper> plane;
 
-  bool operator==(const KerrPlace& place) const {
-    return at.hole == place.hole && at.r == place.r && at.theta == place.theta;
+  bool are_of(const KerrPlace& place, int their_stride) const {
+    return at.hole == place.hole && at.r == place.r && at.theta == place.theta &&
+           stride == their_stride;
   }
 };
 
@@ -38,7 +40,7 @@ class KerrLens : public Lens {
       SkyRegion sky, const std::optional<PointTolerance>& tolerance) const override;
   V3d primary_image(const V3d& source) const override;
   std::shared_ptr<const KerrPlane> kerr_plane(const KerrRings& rings) const override {
-    return charts_->plane->plane(charts_->at, rings);
+    return charts_->plane->plane(charts_->at, rings, charts_->stride);
   }
   std::optional<GasView> gas_view() const override;
   bool lists_bodies() const override { return true; }

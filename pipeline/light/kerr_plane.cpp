@@ -52,21 +52,25 @@ void step_along(const KerrPlace& at, double delta, double eta, double outer,
 
 }  // namespace
 
-KerrPlane::KerrPlane(const KerrPlace& at, const KerrRings& rings) : rings_(rings) {
+KerrPlane::KerrPlane(const KerrPlace& at, const KerrRings& rings, int stride)
+    : rings_(rings),
+      rows_(kPlaneRows / stride),
+      columns_(kPlaneColumns / stride),
+      most_off_(kMostOff * stride * stride) {
   for (const double end : {pi, 0.0}) {
-    sides_.push_back({KerrGrid(at, KerrEdge::kSilhouette, end, kPlaneRows, kPlaneColumns), {}, {}});
+    sides_.push_back({KerrGrid(at, KerrEdge::kSilhouette, end, rows_, columns_), {}, {}});
     fill(sides_.back());
     judge(sides_.back());
   }
 }
 
-std::shared_ptr<const KerrPlane> KerrPlaneKeeper::plane(const KerrPlace& at,
-                                                        const KerrRings& rings) {
+std::shared_ptr<const KerrPlane> KerrPlaneKeeper::plane(const KerrPlace& at, const KerrRings& rings,
+                                                        int stride) {
   const std::lock_guard lock(mutex_);
   if (!plane_ || rings_ != rings)
     // A thread that waits here for others must not take up work that waits for the mutex.
     tbb::this_task_arena::isolate(
-        [&] { plane_ = std::make_shared<const KerrPlane>(at, rings), rings_ = rings; });
+        [&] { plane_ = std::make_shared<const KerrPlane>(at, rings, stride), rings_ = rings; });
   return plane_;
 }
 
@@ -102,15 +106,15 @@ void KerrPlane::fill(Side& side) {
   constexpr int kGuard = KerrGrid::kGuard;
   const std::size_t count = side.grid.nodes();
   side.nodes.resize(count * kOrders);
-  tbb::parallel_for(-kGuard, kPlaneRows + kGuard + 1, [&](int row) {
-    for (int column = 0; column < kPlaneColumns; ++column) {
+  tbb::parallel_for(-kGuard, rows_ + kGuard + 1, [&](int row) {
+    for (int column = 0; column < columns_; ++column) {
       std::array<Node, kOrders> nodes;
       exact_nodes(side.grid.direction(row, column), nodes);
       for (std::size_t order = 0; order < nodes.size(); ++order)
         side.nodes[order * count + side.grid.node(row, column)] = nodes[order];
     }
   });
-  tbb::parallel_for(0, kPlaneColumns, [&](int column) {
+  tbb::parallel_for(0, columns_, [&](int column) {
     for (int order = 0; order < kOrders; ++order) continue_column(side, column, order);
   });
 }
@@ -123,9 +127,9 @@ void KerrPlane::continue_column(Side& side, int column, int order) const {
     return side.nodes[begin + side.grid.node(row, column)];
   };
   int there = -kGuard;
-  while (there <= kPlaneRows + kGuard && std::isfinite(node(there)[0])) ++there;
+  while (there <= rows_ + kGuard && std::isfinite(node(there)[0])) ++there;
   if (there < 3 - kGuard) return;
-  for (int on = 0; on < kOn && there + on <= kPlaneRows + kGuard; ++on) {
+  for (int on = 0; on < kOn && there + on <= rows_ + kGuard; ++on) {
     const Node &a = node(there + on - 3), &b = node(there + on - 2), &c = node(there + on - 1);
     Node& next = node(there + on);
     if (std::isfinite(next[0])) return;
@@ -141,7 +145,7 @@ void KerrPlane::continue_column(Side& side, int column, int order) const {
 template <int kCount>
 KerrPlane::Node KerrPlane::interpolated(const Side& side, int order, double row, double column,
                                         Node* by_row, Node* by_column) const {
-  const double i = std::clamp(std::floor(row), 0.0, kPlaneRows - 1.0), j = std::floor(column);
+  const double i = std::clamp(std::floor(row), 0.0, rows_ - 1.0), j = std::floor(column);
   const LagrangeWeights<kCount> down(row - i), on(column - j);
   const int top = static_cast<int>(i) + 1 - kCount / 2, left = static_cast<int>(j) + 1 - kCount / 2;
   const Node* const nodes = side.nodes.data() + static_cast<std::size_t>(order) * side.grid.nodes();
@@ -171,10 +175,10 @@ KerrPlane::Node KerrPlane::interpolated(const Side& side, int order, double row,
 // Cells are outside or inside if no ring may be seen in them, even if w changes from node to node as much
 // again.
 void KerrPlane::judge(Side& side) const {
-  side.cells.resize(static_cast<std::size_t>(kOrders * kPlaneRows * kPlaneColumns));
-  tbb::parallel_for(0, kPlaneRows, [&](int row) {
+  side.cells.resize(static_cast<std::size_t>(kOrders * rows_ * columns_));
+  tbb::parallel_for(0, rows_, [&](int row) {
     for (int order = 0; order < kOrders; ++order)
-      for (int column = 0; column < kPlaneColumns; ++column) {
+      for (int column = 0; column < columns_; ++column) {
         const std::size_t begin = static_cast<std::size_t>(order) * side.grid.nodes();
         double low = HUGE_VAL, high = -HUGE_VAL;
         for (int down = -1; down <= 2; ++down)
@@ -186,8 +190,8 @@ void KerrPlane::judge(Side& side) const {
                                                     nullptr),
                    four = interpolated<kPlanePoints - 2>(side, order, row + 0.5, column + 0.5,
                                                          nullptr, nullptr);
-        const bool smooth = std::abs(six[0] - four[0]) < kMostOff * std::abs(six[0]);
-        side.cells[static_cast<std::size_t>((order * kPlaneRows + row) * kPlaneColumns + column)] =
+        const bool smooth = std::abs(six[0] - four[0]) < most_off_ * std::abs(six[0]);
+        side.cells[static_cast<std::size_t>((order * rows_ + row) * columns_ + column)] =
             high < 1 / rings_.outer  ? Cell::kOutside
             : low > 1 / rings_.inner ? Cell::kInside
             : smooth                 ? Cell::kSmooth
@@ -204,14 +208,12 @@ KerrPlane::Sight KerrPlane::sight(double delta, double eta) const {
   KerrGrid::Place in = side.grid.place(delta, eta, edge);
   // Next to the edge the first images are as in the first row.
   if (!(in.row >= 0)) in = side.grid.place(side.grid.direction(0.0, in.column).delta, eta, edge);
-  const double row = std::clamp(in.row, 0.0, static_cast<double>(kPlaneRows)),
+  const double row = std::clamp(in.row, 0.0, static_cast<double>(rows_)),
                sine = std::max(std::sin(delta), 1e-9);
-  const int i = std::min(static_cast<int>(row), kPlaneRows - 1),
-            j = static_cast<int>(std::floor(in.column)),
-            on = (j % kPlaneColumns + kPlaneColumns) % kPlaneColumns;
+  const int i = std::min(static_cast<int>(row), rows_ - 1),
+            j = static_cast<int>(std::floor(in.column)), on = (j % columns_ + columns_) % columns_;
   for (int order = 0; order < kOrders; ++order) {
-    const Cell cell =
-        side.cells[static_cast<std::size_t>((order * kPlaneRows + i) * kPlaneColumns + on)];
+    const Cell cell = side.cells[static_cast<std::size_t>((order * rows_ + i) * columns_ + on)];
     const auto k = static_cast<std::size_t>(order);
     sight.within[k] = cell == Cell::kInside;
     if (cell == Cell::kOutside || cell == Cell::kInside) continue;

@@ -22,7 +22,8 @@ class KerrPlane {
  public:
   static constexpr int kOrders = 4;
 
-  KerrPlane(const KerrPlace& at, const KerrRings& rings);
+  // Cells are wider by `stride` (kerr_stride()).
+  KerrPlane(const KerrPlace& at, const KerrRings& rings, int stride = 1);
 
   // A Value changes by these with delta, and with an angle of view across that, sin(delta) eta.
   struct Value {
@@ -68,13 +69,15 @@ class KerrPlane {
   bool exact_nodes(const KerrDirection& n, std::array<Node, kOrders>& nodes) const;
 
   KerrRings rings_;
+  int rows_, columns_;
+  double most_off_;          // of 1/r, where cells are smooth
   std::vector<Side> sides_;  // beyond the edge, and towards the hole
 };
 
 // A KerrPlaneKeeper keeps the last plane of one place, for all threads.
 class KerrPlaneKeeper {
  public:
-  std::shared_ptr<const KerrPlane> plane(const KerrPlace& at, const KerrRings& rings);
+  std::shared_ptr<const KerrPlane> plane(const KerrPlace& at, const KerrRings& rings, int stride);
 
  private:
   std::mutex mutex_;

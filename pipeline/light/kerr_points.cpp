@@ -19,8 +19,8 @@ constexpr double kFaintest = 3e-6;
 // So are those whose places are not known to so many radians: the crowded images next to the corners of
 // a hole that spins nearly as fast as it can.
 constexpr double kLost = 1e-2;
-// Cells are halved, from kLargest down to kSmallest, where a caustic goes through them, or where they are
-// not even to this part of their size.
+// Cells are halved, from kLargest down to kSmallest (less in a chart of wide cells), where a caustic goes
+// through them, or where they are not even to this part of their size.
 constexpr double kUneven = 0.4, kLargest = 2, kSmallest = 0.125;
 // Where the parabolas of a cell have an image so far from its middle, in halves of it, the chart may have
 // one in it.
@@ -129,7 +129,8 @@ void KerrPoints::split(const Net& net, bool by_rows) {
 }
 
 void KerrPoints::add(const Net& net) {
-  if (chart_.error(net.row, net.column) > kLost) return;
+  if (chart_.error(net.row, net.column) > kLost * chart_.stride()) return;
+  const double smallest = kSmallest / chart_.stride(), wound = kWound * chart_.stride();
   bool turned = false, straight = false;
   double least_area = HUGE_VAL, longest = 0, view = 0, ratio = 0;
   for (const auto& row : net.samples)
@@ -140,7 +141,7 @@ void KerrPoints::add(const Net& net) {
       (area.dot(sample.at.sky) > 0 ? turned : straight) = true;
       view = std::max(view, sample.view), ratio = std::max(ratio, sample.frequency_ratio);
     }
-  if (longest > kWound * kWound) return;
+  if (longest > wound * wound) return;
   Cell cell;
   cell.row = net.row, cell.column = net.column;
   cell.half_rows = net.half_rows, cell.half_columns = net.half_columns;
@@ -149,7 +150,7 @@ void KerrPoints::add(const Net& net) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       cell.places[i][j] = Imath::V3f(net.samples[i][j].at.sky - cell.middle);
-  const bool rows = net.half_rows > kSmallest / 2, columns = net.half_columns > kSmallest / 2;
+  const bool rows = net.half_rows > smallest / 2, columns = net.half_columns > smallest / 2;
   const bool uneven = !(cell.off_row < 2 * kUneven * net.half_rows &&
                         cell.off_column < 2 * kUneven * net.half_columns);
   // Between the places that were looked at there may be a caustic, where light has no bound.

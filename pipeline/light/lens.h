@@ -111,10 +111,12 @@ struct SkySample {
   RayBundle bundle;
 };
 
-// WantedSkies says which skies a lens must know.  What a black sky would show is not worth a table.
+// WantedSkies says which skies a lens must know, and how well.  What a black sky would show is not worth a
+// table.
 struct WantedSkies {
   PerSky<bool> sky{true, true, false, true};
   bool emission_times = false;  // of the past singularity's light, only with its sky
+  double pixel = 0;  // radians; light about a spin need not be known to less than a twentieth of it
 };
 
 class Lens {

@@ -75,13 +75,14 @@ std::shared_ptr<const Lens> LensStore::kerr_lens(const SpinningHole& hole,
                                                  const ObserverState& observer,
                                                  const WantedSkies& wanted) {
   const KerrPlace at = kerr_place(hole, observer);
+  const int stride = kerr_stride(wanted.pixel);
   tables_made_ = 0;
-  if (!charts_ || !(*charts_ == at))
-    charts_ =
-        std::make_shared<KerrCharts>(KerrCharts{at, {}, {}, std::make_shared<KerrPlaneKeeper>()});
+  if (!charts_ || !charts_->are_of(at, stride))
+    charts_ = std::make_shared<KerrCharts>(
+        KerrCharts{at, stride, {}, {}, std::make_shared<KerrPlaneKeeper>()});
   const auto add = [&](bool seen, std::shared_ptr<const KerrChart>& chart, KerrEdge sky) {
     if (!seen || chart) return;
-    chart = std::make_shared<const KerrChart>(at, sky);
+    chart = std::make_shared<const KerrChart>(at, sky, stride);
     ++tables_made_;
   };
   // A lens that is still in use goes on to know the skies that it was made for.

@@ -195,10 +195,12 @@ std::vector<FrameState> exposure_states(const Show& show, const FrameState& stat
                closed = std::min(t + half, begin + segment_of(show, segment).duration_s);
   std::vector<FrameState> states;
   states.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k)
+  for (int k = 0; k < count; ++k) {
     // The middles of equal parts make the mean over the states the midpoint rule of integration.
     states.push_back(state_at(show, segment, state.frame,
                               opened + (closed - opened) * (k + 0.5) / count, state.projection));
+    states.back().draft = state.draft;
+  }
   return states;
 }
 

@@ -41,6 +41,9 @@ struct FrameState {
   M33d camera_from_audience;  // audience_axes() of camera.h
   FrameSettings settings;
   Cdl cdl;
+  // Whether it is for a passing look, for which light about a spin is known well enough if it is to a
+  // twentieth of a pixel.
+  bool draft = false;
   double fade = 1;  // the part of its light that is left in a fade from or to black
   // During a dissolve, `vanishing` is the state in the segment that vanishes, and `vanishing_part`
   // is the part of the light that still comes from it.  Otherwise they are null and 0.

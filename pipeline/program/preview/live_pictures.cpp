@@ -42,6 +42,7 @@ bool same_stars(const Show& a, const Show& b) {
 // Changes a state as a request asks.
 void change(const PictureRequest& request, FrameState& state) {
   state.settings.ev += request.ev;
+  state.draft = request.moving;
   for (const SkyRegion region : kEverySky) {
     FrameSettings::Sky& sky = state.settings.sky[region];
     if (!request.skies[region]) sky.background_gain = sky.star_gain = 0;

@@ -92,7 +92,8 @@ class LightMeter {
 };
 
 FrameLight measured(const Show& show, int frame, int width, Renderer& renderer, LightMeter& meter) {
-  const FrameState state = reduced(frame_state(show, frame), width);
+  FrameState state = reduced(frame_state(show, frame), width);
+  state.draft = true;
   FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, state.fade};
   meter.measure(renderer.render(state), state, light);
   return light;

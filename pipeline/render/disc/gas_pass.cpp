@@ -17,7 +17,7 @@ namespace {
 using std::numbers::pi;
 
 // Rays are this far apart (radians), or a third of what the gas changes over, or two pixels if that is
-// more, but no more than half as much again.
+// more, but in a frame that is no draft no more than half as much again.
 constexpr double kSpacing = 0.04, kClosest = 0.006, kOfFinest = 0.33, kPixels = 2;
 // Rows for each factor e towards the edge, and the distance at which these end, in pixels.
 constexpr double kPerLogOfDisc = 16, kPerLog = 10, kNearest = 1.0 / 16;
@@ -81,7 +81,8 @@ GasPass::GasPass(const FrameScene& scene, const std::atomic<bool>* stop)
       least_(kNearest * largest_pixel_angle(scene.projection())) {
   const double least = std::clamp(kOfFinest * rays_.finest(), kClosest, kSpacing),
                pixels = kPixels * largest_pixel_angle(scene.projection());
-  const double spacing = std::clamp(pixels, least, 1.5 * least);
+  const double spacing =
+      std::clamp(pixels, least, scene.plan.pixel > 0 ? std::max(pixels, least) : 1.5 * least);
   even_rows_ = 1 / spacing;
   columns_ = std::clamp(static_cast<int>(2 * pi / spacing), 64, 4096);
   blocks_ = rays_.has_pattern() ? kMostBlocks : 1;

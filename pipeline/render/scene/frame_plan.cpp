@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pipeline/show/viewer.h"
+
 namespace domefall {
 namespace {
 
@@ -28,6 +30,7 @@ bool FramePlan::has_background() const {
 WantedSkies FramePlan::wanted() const {
   WantedSkies wanted;
   for (const SkyRegion which : kEverySky) wanted.sky[which] = sky[which].lit();
+  wanted.pixel = pixel;
   wanted.emission_times = sky[SkyRegion::kIV].lit() && sky[SkyRegion::kIV].rings;
   return wanted;
 }
@@ -37,6 +40,10 @@ FramePlan plan_frame(const Show& show, const FrameState& state) {
   const PerSky<bool> seen = seen_skies(o);
   FramePlan plan;
   plan.gravity = !is_flat(o) && show.effects.lensing;
+  if (state.draft) {
+    const auto celerity = viewer_of(o, show.effects).celerity;
+    plan.pixel = largest_pixel_angle(state.projection) / (gamma_of(celerity) + celerity.length());
+  }
   // An observer who falls from region I receives its light on the horizon itself too.  In a universe
   // further on another region I has no gas.
   const bool sees_gas =

@@ -25,7 +25,8 @@ struct FramePlan {
   bool gas = false;
   const Halo* halo = nullptr;
   const Jet* jet = nullptr;
-  PerSky<Sky> sky;  // all false for a sky that the observer's region does not see
+  double pixel = 0;  // of a draft (radians), in the frame of the lens
+  PerSky<Sky> sky;   // all false for a sky that the observer's region does not see
 
   const Sky& operator[](SkyRegion which) const { return sky[which]; }
   bool has_background() const;

@@ -43,5 +43,27 @@ TEST(NoSpin, FramesAreThoseOfLittleSpin) {
     }
 }
 
+// A draft is by a chart of wider cells.
+TEST(NoSpin, DraftsAreNearlyTheFrames) {
+  for (const int size : {64, 256}) {
+    const Show show = starry(show_of(StaticObserver{6}, Domemaster{size}));
+    FrameState state = state_near_charge(show, {1e-12, 6});
+    state.observer.spacetime = SpinningHole{1, {0.9L}};
+    Show spinning = show;
+    spinning.spacetime = state.observer.spacetime;
+    StageTimes times, of_draft;
+    HalfFrame frame, draft;
+    Renderer(spinning, 1).render(state, frame, &times);
+    state.draft = true;
+    Renderer(spinning, 1).render(state, draft, &of_draft);
+    EXPECT_LT(of_draft.table_nodes, times.table_nodes / 3);
+    double off = 0, light = 0;
+    for (std::size_t k = 0; k < frame.pixels.size(); ++k)
+      off += std::abs(float{frame.pixels[k]} - float{draft.pixels[k]}), light += frame.pixels[k];
+    EXPECT_GT(light, 0);
+    EXPECT_LT(off, 0.01 * light) << size;
+  }
+}
+
 }  // namespace
 }  // namespace domefall
