@@ -212,7 +212,7 @@ over() { [[ -z $(squeue -h -t PD,R,CG,CF,RQ -j "$1") ]]; }
 tasks() { squeue -h -r -t all -j "$1" -O 'ArrayTaskID:8,State:16,RestartCnt:8' | tr -s ' ' | sort -n; }
 logs_of() { tail -n 20 "$1"/farm/log/* "$1"/farm/*.log 2>/dev/null >&2 || true; }
 wait_for() { # wait_for JOB FOLDER
-  until_ok 90 over "$1" || {
+  until_ok 300 over "$1" || {
     tasks "$1"
     logs_of "$2"
     fail "job $1 does not end"
