@@ -119,13 +119,15 @@ void KerrPlane::fill(Side& side) {
   });
 }
 
-// Beyond the rows in which rays cross the plane, the values go on a little as they did.
+// Beyond the rows in which rays cross the plane, the values go on a little as they did, if that leads to
+// the horizon, or far out on the edge's other side.  Next to the plane rows may be too far apart for that.
 void KerrPlane::continue_column(Side& side, int column, int order) const {
   constexpr int kGuard = KerrGrid::kGuard, kOn = 4;
   const std::size_t begin = static_cast<std::size_t>(order) * side.grid.nodes();
   const auto node = [&](int row) -> Node& {
     return side.nodes[begin + side.grid.node(row, column)];
   };
+  const auto horizon = static_cast<double>(at().hole.horizon());
   int there = -kGuard;
   while (there <= rows_ + kGuard && std::isfinite(node(there)[0])) ++there;
   if (there < 3 - kGuard) return;
@@ -133,6 +135,8 @@ void KerrPlane::continue_column(Side& side, int column, int order) const {
     const Node &a = node(there + on - 3), &b = node(there + on - 2), &c = node(there + on - 1);
     Node& next = node(there + on);
     if (std::isfinite(next[0])) return;
+    const double w = 3 * c[0] - 3 * b[0] + a[0];
+    if (on == 0 && !(side.grid.end() > 0 ? w < 0.5 / rings_.outer : w > 0.8 / horizon)) return;
     for (std::size_t k = 0; k < next.size(); ++k) {
       const auto near = [&](double angle) {
         return k == 1 ? c[k] + std::remainder(angle - c[k], 2 * pi) : angle;
@@ -173,7 +177,8 @@ KerrPlane::Node KerrPlane::interpolated(const Side& side, int order, double row,
 }
 
 // Cells are outside or inside if no ring may be seen in them, even if w changes from node to node as much
-// again.
+// again.  Where rays go by the plane they cross it at the horizon, or on the edge's other side in the sky:
+// all rings may lie between one node and the next.
 void KerrPlane::judge(Side& side) const {
   side.cells.resize(static_cast<std::size_t>(kOrders * rows_ * columns_));
   tbb::parallel_for(0, rows_, [&](int row) {
@@ -184,7 +189,8 @@ void KerrPlane::judge(Side& side) const {
         for (int down = -1; down <= 2; ++down)
           for (int on = -1; on <= 2; ++on) {
             const double w = side.nodes[begin + side.grid.node(row + down, column + on)][0];
-            if (std::isfinite(w)) low = std::min(low, w), high = std::max(high, w);
+            const double there = std::isfinite(w) ? w : side.grid.end() > 0 ? 0 : HUGE_VAL;
+            low = std::min(low, there), high = std::max(high, there);
           }
         const auto six = interpolated<kPlanePoints>(side, order, row + 0.5, column + 0.5, nullptr,
                                                     nullptr),
