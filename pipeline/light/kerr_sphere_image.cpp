@@ -121,14 +121,12 @@ struct Patch {
 void append_ringed(const KerrBodyRays& rays, const KerrPass& pass, const KerrStretch& stretch,
                    const Patch& patch, const RingPlane& rings, RingedSphere& pieces) {
   constexpr int kSamples = 12;  // along each side
-  struct Part {
-    int count = 0;
-    double cosine = 0;
-    V3d place{0, 0, 0};
-    void add(const V3d& at, double its_cosine) { ++count, place += at, cosine += its_cosine; }
-  };
+  // A piece has one place, which is a part of a radius wide.
+  constexpr double kPartsOfRadius = 64, kMostParts = 16;
+  const auto parts = static_cast<std::size_t>(
+      std::clamp(kPartsOfRadius * std::max(patch.half_along, patch.half_across), 1.0, kMostParts));
   // Of the sphere, bare and through each ring, and of each ring.
-  std::vector<Part> sphere(rings.edges.size() + 1), around(rings.edges.size());
+  std::vector<std::vector<V3d>> sphere(rings.edges.size() + 1), around(rings.edges.size());
   const V3d leaving = in_tetrad(rays, pass, pass.leaving),
             middle = in_tetrad(rays, pass, patch.place),
             along = in_tetrad(rays, pass, stretch.along * patch.half_along),
@@ -144,28 +142,35 @@ void append_ringed(const KerrBodyRays& rays, const KerrPass& pass, const KerrStr
       const double up2 = 1 - at.length2();
       const bool hits = up2 > 0, before = ring >= 0 && way > 0;
       if (hits)
-        sphere[before ? static_cast<std::size_t>(ring) + 1 : 0].add(at + leaving * std::sqrt(up2),
-                                                                    std::sqrt(up2));
-      if (ring >= 0 && (before || !hits)) around[static_cast<std::size_t>(ring)].add(crossed, 0);
+        sphere[before ? static_cast<std::size_t>(ring) + 1 : 0].push_back(at +
+                                                                          leaving * std::sqrt(up2));
+      if (ring >= 0 && (before || !hits)) around[static_cast<std::size_t>(ring)].push_back(crossed);
     }
-  const auto image = [&](const Part& of) {
-    return SkyImage{
-        {pass.view}, 1 / pass.frequency, patch.solid_angle * of.count / (kSamples * kSamples)};
+  // Calls use(image, place) for the parts of what is seen, each by the sample in its middle.
+  const auto divide = [&](const std::vector<V3d>& places, const auto& use) {
+    for (std::size_t k = 0; k < parts; ++k) {
+      const std::size_t from = k * places.size() / parts, to = (k + 1) * places.size() / parts;
+      if (from == to) continue;
+      use(SkyImage{{pass.view},
+                   1 / pass.frequency,
+                   patch.solid_angle * static_cast<double>(to - from) / (kSamples * kSamples)},
+          places[(from + to) / 2]);
+    }
   };
-  for (std::size_t k = 0; k < sphere.size(); ++k) {
-    if (sphere[k].count == 0) continue;
-    const double cosine = std::max(sphere[k].cosine / sphere[k].count, kLeastCosine);
-    pieces.sphere.push_back({image(sphere[k]),
-                             cosine,
-                             sphere[k].place.normalized(),
-                             patch.width / cosine,
-                             {static_cast<int>(k) - 1, k > 0 ? std::abs(steep) : 1}});
-  }
+  for (std::size_t k = 0; k < sphere.size(); ++k)
+    divide(sphere[k], [&](const SkyImage& image, const V3d& place) {
+      const double cosine = std::max(place.dot(leaving), kLeastCosine);
+      pieces.sphere.push_back({image,
+                               cosine,
+                               place,
+                               patch.width / cosine,
+                               {static_cast<int>(k) - 1, k > 0 ? std::abs(steep) : 1}});
+    });
   for (std::size_t k = 0; k < around.size(); ++k)
-    if (around[k].count > 0)
-      pieces.rings.push_back({image(around[k]), static_cast<int>(k),
-                              around[k].place / around[k].count, leaving,
+    divide(around[k], [&](const SkyImage& image, const V3d& place) {
+      pieces.rings.push_back({image, static_cast<int>(k), place, leaving,
                               patch.width / std::max(std::abs(steep), kLeastCosine)});
+    });
 }
 
 std::optional<RingedSphere> SphereNet::pieces(std::span<const BodyImage> earlier) {
@@ -321,14 +326,15 @@ RingedSphere kerr_image_of_sphere(const KerrPlace& at, double null_time, const B
   const KerrBodyRays rays(at, null_time, motion);
   const auto middle = rays.meet(image.direction, image.mino, image.proper_time);
   if (!middle) return {};
-  constexpr double kAcross = 16, kWound = 2.5, kNarrow = 4;
+  const Target target{radius, rings};
+  constexpr double kAcross = 16, kFarRings = 4, kWound = 2.5, kNarrow = 4;
   const double least = spacing(image.direction),
-               side = std::min(least, kerr_size_of_sphere(image, radius) / kAcross);
+               side = std::min(least, kerr_size_of_sphere(image, radius) / kAcross *
+                                          std::max(1.0, target.reach() / kFarRings));
   const KerrDirection n = kerr_direction_of(image.direction);
   const auto delta = static_cast<double>(n.delta), eta = static_cast<double>(n.eta);
   const RingedSphere one_with_another{
       {{{{image.direction}, image.frequency_ratio, 0}, 1, image.direction}}, {}};
-  const Target target{radius, rings};
   if (middle->event.swept > kWound && std::abs(delta - kerr_edge_delta(at, eta)) < kNarrow * side) {
     const Ribbon ribbon(rays, *middle, target, least);
     const bool known = std::ranges::any_of(ribbon.line(), [&](const KerrPass& pass) {

@@ -224,8 +224,10 @@ TEST(KerrBodyImages, HaveRings) {
   ASSERT_GE(images.size(), 3U);
   const auto seen = [&](const BodyImage& image, double parts) {
     const double spacing = kerr_size_of_sphere(image, kRadius) / parts;
-    return RingedLight(kerr_image_of_sphere(at, 50, motion, image, {}, kRadius, rings,
-                                            [=](const V3d&) { return spacing; }));
+    const RingedSphere found = kerr_image_of_sphere(at, 50, motion, image, {}, kRadius, rings,
+                                                    [=](const V3d&) { return spacing; });
+    for (const RingPiece& piece : found.rings) EXPECT_EQ(rings.ring_at(piece.place), piece.ring);
+    return RingedLight(found);
   };
   const auto own = image_of_body(view, 50, motion, 1, kRadius);
   const auto expected = traced_with_rings(
