@@ -26,7 +26,7 @@ class BodyPainter {
     const std::vector<BodyTrails::Piece> trail = trails_.trail(body, order, image);
     for (const BodyTrails::Piece& piece : trail)
       take(piece.image, piece.psi, piece.tint, piece.solid_angle, drawn);
-    if (!trail.empty()) return finder_.append_trail(star, left_, drawn.light, tints_);
+    if (!trail.empty()) return finder_.append_pieces(star, left_, drawn.light, tints_);
     const std::vector<BodySight::Piece> pieces =
         sight().pieces(body, image, scene_.point_spread.least());
     for (const BodySight::Piece& piece : pieces)
@@ -42,7 +42,7 @@ class BodyPainter {
     const std::vector<BodyTrails::Piece> trail = trails_.listed_trail(body);
     for (const BodyTrails::Piece& piece : trail)
       take(piece.image, piece.psi, piece.tint, piece.solid_angle, drawn);
-    if (!left_.empty()) finder_.append_trail(BodySight::star_of(body), left_, drawn.light, tints_);
+    if (!left_.empty()) finder_.append_pieces(BodySight::star_of(body), left_, drawn.light, tints_);
     return !trail.empty();
   }
 

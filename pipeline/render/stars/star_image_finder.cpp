@@ -166,7 +166,7 @@ void StarImageFinder::append_listed(const SceneStar& star, std::vector<StarImage
   const Instant now{0, listed.size()};
   add(add, instant(-1), now);
   add(add, now, instant(1));
-  append_trail(star, trail, images);
+  append_pieces(star, trail, images);
 }
 
 // Appends the images of the orders from `first` to before `end`.
@@ -323,9 +323,9 @@ bool StarImageFinder::append_trail(const SceneStar& star, const StarTrail& trail
   return true;
 }
 
-bool StarImageFinder::append_trail(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                                   std::vector<StarImage>& images,
-                                   const std::vector<WorkingRgb>& tints) const {
+bool StarImageFinder::append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
+                                    std::vector<StarImage>& images,
+                                    const std::vector<WorkingRgb>& tints) const {
   const std::size_t before = images.size();
   double light = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -335,24 +335,6 @@ bool StarImageFinder::append_trail(const SceneStar& star, const std::vector<SkyI
     if (received.placed) images.push_back(received.image);
   }
   if (light > kFaintestPeak) return true;
-  images.resize(before);
-  return false;
-}
-
-bool StarImageFinder::append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                                    std::vector<StarImage>& images,
-                                    const std::vector<WorkingRgb>& tints) const {
-  const std::size_t before = images.size();
-  double peak = 0;
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const Received received =
-        tints.empty() ? receive(star, pieces[k]) : receive(star, pieces[k], tints[k]);
-    peak = std::max(peak, received.peak);
-    if (received.placed) images.push_back(received.image);
-  }
-  // The pieces of an arc overlap, so that their sum is higher than the peak of one of them.
-  const double neighbours = images.size() > before + 1 ? std::sqrt(2 * pi) / kPieceSigmas : 1;
-  if (peak * neighbours > kFaintestPeak) return true;
   images.resize(before);
   return false;
 }

@@ -42,17 +42,11 @@ class StarImageFinder {
   bool append_image(const SceneStar& star, const SkyImage& image,
                     std::vector<StarImage>& images) const;
 
-  // Does the same with an image in pieces that lie so close together that they are seen as one.
-  // Tints are factors to the light of each, or none.
+  // Does the same with an image or a trail in pieces, which is bright enough if all of its light in one
+  // blob would be.  Tints are factors to the light of each, or none.
   bool append_pieces(const SceneStar& star, const std::vector<SkyImage>& pieces,
                      std::vector<StarImage>& images,
                      const std::vector<WorkingRgb>& tints = {}) const;
-
-  // Does the same with the pieces of a trail, which is bright enough if all of its light in one blob
-  // would be.
-  bool append_trail(const SceneStar& star, const std::vector<SkyImage>& pieces,
-                    std::vector<StarImage>& images,
-                    const std::vector<WorkingRgb>& tints = {}) const;
 
   // Returns how many stars, counted from the first, may be bright enough by their magnitudes and
   // fluxes.
