@@ -333,7 +333,7 @@ RingedSphere kerr_image_of_sphere(const KerrPlace& at, double null_time, const B
                                           std::max(1.0, target.reach() / kFarRings));
   const KerrDirection n = kerr_direction_of(image.direction);
   const auto delta = static_cast<double>(n.delta), eta = static_cast<double>(n.eta);
-  const RingedSphere one_with_another{
+  RingedSphere one_with_another{
       {{{{image.direction}, image.frequency_ratio, 0}, 1, image.direction}}, {}};
   if (middle->event.swept > kWound && std::abs(delta - kerr_edge_delta(at, eta)) < kNarrow * side) {
     const Ribbon ribbon(rays, *middle, target, least);
