@@ -22,9 +22,9 @@ using std::numbers::pi;
 
 // Places and derivatives of a chart are those of exact rays, and to a twentieth of a pixel where cells are
 // wider for a draft.
-class KerrCharts : public testing::TestWithParam<int> {};
+class KerrChartStrides : public testing::TestWithParam<int> {};
 
-TEST_P(KerrCharts, AreTheExactRays) {
+TEST_P(KerrChartStrides, HaveTheExactRays) {
   const int stride = GetParam();
   const double wider = stride * stride, off = stride == 1 ? 1e-5 : stride == 2 ? 2e-4 : 8e-4;
   std::mt19937 random(3);
@@ -54,15 +54,15 @@ TEST_P(KerrCharts, AreTheExactRays) {
       EXPECT_NEAR(chart.frequency_ratio(delta, eta) * std::abs(exact.energy), 1, 1e-9);
     }
     EXPECT_GT(compared, tries(160, 30));
+    if (stride > 1) continue;
     int rough = 0;
     for (int row = 0; row < chart.rows(); ++row)
       for (int column = 0; column < chart.columns(); ++column)
         rough += chart.error(row, column) > chart.rough();
-    EXPECT_LT(rough, chart.rows() * chart.columns() / (stride == 1 ? 50 : 1))
-        << place.spin << " " << place.r;
+    EXPECT_LT(rough, chart.rows() * chart.columns() / 50) << place.spin << " " << place.r;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Light, KerrCharts, testing::Values(1, 2, 4));
+INSTANTIATE_TEST_SUITE_P(Light, KerrChartStrides, testing::Values(1, 2, 4));
 
 TEST(KerrLens, HasTheSameRaysInBatchesAndAlone) {
   std::mt19937 random(5);
