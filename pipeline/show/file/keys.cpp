@@ -151,7 +151,8 @@ constexpr std::string_view kRows = R"(
 | `from_r` | above 1, at most 1e9 M: where it is thrown | required |
 | `latitude_deg` | -90 to 90: above the hole's equator | [0] |
 ## path about a spin
-| `keyframes` | a list of places and times, with the keys below | required |
+| `keyframes` | a list of places and times, with the keys below | this or |
+| `file` | a CSV file with the columns `proper_time`, `r` and perhaps `latitude_deg`, `azimuth_deg`, `celerity_r`, `celerity_theta`, `celerity_phi` as `domefall states` writes them | this |
 ## keyframes about a spin
 | `at_m` | -1e12 to 1e12: the observer's own time | required |
 | `r` | above 0, at most 1e9 M: where it is then, outside the inner horizon | required |
@@ -162,7 +163,8 @@ constexpr std::string_view kRows = R"(
 | `latitude_deg` | -90 to 90: above the hole's equator | [0] |
 | `against` | `dragged`, `static` or `free_fall`: the observer against whom the speed is measured: who turns with space, without angular momentum; who rests against the stars, outside the ergosphere; or who falls from rest far away | [`dragged`] |
 ## path in a wormhole
-| `keyframes` | a list of places and times, with the keys below | required |
+| `keyframes` | a list of places and times, with the keys below | this or |
+| `file` | a CSV file with the columns `proper_time`, `l` and perhaps `azimuth_deg`, `celerity_r`, `celerity_phi` as `domefall states` writes them | this |
 ## keyframes in a wormhole
 | `at_m` | -1e12 to 1e12 radii of the throat: the observer's own time | required |
 | `l` | -1e9 to 1e9: where it is then | required |

@@ -8,6 +8,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/show/file/trajectory_section.h"
 #include "pipeline/show/state_columns.h"
+#include "trajectories/kerr_flight.h"
 
 namespace domefall {
 namespace {
@@ -41,31 +42,32 @@ void read_velocity_at(const Section& s, const Stage& stage, PathKey& key, Lookup
   key.azimuth_rate = own->z / key.r;
 }
 
-// Reads the keys of a path from a list in the show file.  All keys are checked before an error
-// gives up the path.
-std::optional<std::vector<PathKey>> read_path_keys(const Item& list, const Stage& stage,
-                                                   Lookup& lookup) {
+std::optional<PathKey> read_key(const Item& item, const Stage& stage, Lookup& lookup) {
+  const Section s(item, {"path.keyframes", "speed"});
+  const auto at = s.required("at_m");
+  const auto r = s.required("r");
+  if (!at || !r) return std::nullopt;
+  PathKey key{*at, *r, s.angle("azimuth_deg"), {}, {}};
+  read_velocity_at(s, stage, key, lookup);
+  return key;
+}
+
+// All keys are checked before an error gives up the path.
+std::optional<std::vector<PathKey>> read_keyframes(const Item& list, const Stage& stage,
+                                                   Lookup& lookup, ReadPathKey* read) {
   const auto items = read_list(list);
   if (!items) return std::nullopt;
   std::vector<PathKey> keys;
-  bool good = true;
-  for (const Item& item : *items) {
-    const Section s(item, {"path.keyframes", "speed"});
-    const auto at = s.required("at_m");
-    const auto r = s.required("r");
-    good = good && at && r;
-    if (!at || !r) continue;
-    PathKey key{*at, *r, s.angle("azimuth_deg"), {}, {}};
-    read_velocity_at(s, stage, key, lookup);
-    keys.push_back(key);
-  }
-  return good ? std::optional(keys) : std::nullopt;
+  for (const Item& item : *items)
+    if (const auto key = read(item, stage, lookup)) keys.push_back(*key);
+  return keys.size() == items->size() ? std::optional(keys) : std::nullopt;
 }
 
 // These columns of a table of states say what a path is.
 constexpr std::string_view kTimeColumn = state_column("proper_time"),
-                           kRadiusColumn = state_column("r"),
+                           kRadiusColumn = state_column("r"), kThroatColumn = state_column("l"),
                            kAzimuthColumn = state_column("azimuth_deg"),
+                           kLatitudeColumn = state_column("latitude_deg"),
                            kTetradColumn = state_column("tetrad"),
                            kRadialColumn = state_column("celerity_r"),
                            kNormalColumn = state_column("celerity_theta"),
@@ -81,36 +83,66 @@ Tetrad tetrad_named(const CsvFile& table) {
              std::string(name) + "'");
 }
 
-// A Table is what a file says of a path, which has one tetrad throughout.
-struct Table {
-  std::vector<PathKey> keys;
-  Tetrad tetrad = Tetrad::kRain;
-};
+// Reads where a row is, within the bounds of a keyframe.
+PathKey read_place(const CsvFile& csv, const Spacetime& spacetime) {
+  const bool throat = std::holds_alternative<Wormhole>(spacetime.kind());
+  const std::string_view column = throat ? kThroatColumn : kRadiusColumn;
+  PathKey key{csv.number(kTimeColumn), csv.number(column), 0, {}, {}};
+  // The test is negated against NaN.
+  if (!(key.r <= kFarthest && key.r >= (throat ? -kFarthest : kNearest)))
+    csv.fail(fmt::format("{} must lie between {} and 1e9 (units of {}), got {}", column,
+                         throat ? "-1e9" : "1e-6", throat ? "the throat's radius" : "M",
+                         short_number(key.r)));
+  if (csv.has(kAzimuthColumn)) key.azimuth = radians(csv.number(kAzimuthColumn));
+  if (std::holds_alternative<SpinningHole>(spacetime.kind()) && csv.has(kLatitudeColumn)) {
+    const double latitude = csv.number(kLatitudeColumn);
+    if (!(std::abs(latitude) <= 90))
+      csv.fail("latitude_deg must lie between -90 and 90, got " + short_number(latitude));
+    key.theta -= radians(latitude);
+  }
+  return key;
+}
+
+void set_rates(const CsvFile& csv, const Spacetime& spacetime, PathKey& key, Tetrad tetrad) {
+  const Celerity<ReferenceTetrad> celerity{csv.number(kRadialColumn),
+                                           csv.has(kNormalColumn) ? csv.number(kNormalColumn) : 0,
+                                           csv.number(kAzimuthalColumn)};
+  if (const auto* hole = std::get_if<SpinningHole>(&spacetime.kind())) {
+    if (!(key.r > spacetime.inner_horizon()))
+      csv.fail("r must exceed that of the inner horizon, got " + short_number(key.r));
+    if (!(kerr_motion(hole->kerr, key.r, key.theta, celerity).energy > 0))
+      csv.fail("has a negative energy, which paths do not have");
+    set_kerr_rates(hole->kerr, key, celerity);
+  } else if (std::abs(celerity.y) > 1e-12) {
+    csv.fail("celerity_theta leaves the plane of the path; it must be 0");
+  } else if (const auto* wormhole = std::get_if<Wormhole>(&spacetime.kind())) {
+    key.radial_rate = celerity.x;
+    key.azimuth_rate = celerity.z / wormhole->radius(key.r);
+  } else {
+    set_rates(spacetime, key, celerity, tetrad);
+  }
+}
 
 // Reads the table that `domefall states` writes, or any table with some of its columns.
-Table read_table(const std::filesystem::path& file, const Spacetime& spacetime) {
-  CsvFile csv(file, {kTimeColumn, kRadiusColumn});
-  Table table;
-  // Without celerities the path chooses the rates itself (accelerated_path.h).
+PathTable read_file(const std::filesystem::path& file, const Spacetime& spacetime) {
+  const bool throat = std::holds_alternative<Wormhole>(spacetime.kind());
+  const bool spins = std::holds_alternative<SpinningHole>(spacetime.kind());
+  CsvFile csv(file, {kTimeColumn, throat ? kThroatColumn : kRadiusColumn});
+  PathTable table;
+  // Without celerities the path chooses the rates itself (keyframe_path.h).
   const bool moving = csv.has(kRadialColumn) && csv.has(kAzimuthalColumn);
   while (csv.next()) {
-    PathKey key{csv.number(kTimeColumn), csv.number(kRadiusColumn), 0, {}, {}};
-    // A file is held to the radii of shows as a keyframe is, and the test is negated against NaN.
-    if (!(key.r >= kNearest && key.r <= kFarthest))
-      csv.fail("r must lie between 1e-6 and 1e9 (units of M), got " + short_number(key.r));
-    if (csv.has(kAzimuthColumn)) key.azimuth = radians(csv.number(kAzimuthColumn));
+    PathKey key = read_place(csv, spacetime);
     // Without this column the path is one of the rain tetrad, which is regular in regions I and II.
     if (csv.has(kTetradColumn)) {
       const Tetrad tetrad = tetrad_named(csv);
+      if (tetrad != Tetrad::kRain && (throat || spins))
+        csv.fail(fmt::format("tetrad must be rain in this space, got {}", tetrad_name(tetrad)));
       if (!table.keys.empty() && tetrad != table.tetrad)
         csv.fail("the tetrad changes; a path has one, give each part a file and a segment");
       table.tetrad = tetrad;
     }
-    if (csv.has(kNormalColumn) && std::abs(csv.number(kNormalColumn)) > 1e-12)
-      csv.fail("celerity_theta leaves the plane of the path; it must be 0");
-    if (moving)
-      set_rates(spacetime, key, {csv.number(kRadialColumn), 0, csv.number(kAzimuthalColumn)},
-                table.tetrad);
+    if (moving) set_rates(csv, spacetime, key, table.tetrad);
     table.keys.push_back(key);
   }
   return table;
@@ -128,37 +160,41 @@ std::optional<Celerity<GivenFrame>> read_speed_on_path(const Section& s, const S
   return own;
 }
 
-std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, Lookup& lookup) {
-  const Section s(item, {"trajectory", "region", "path", "begin", "end", "rates", "pace"});
+std::optional<PathTable> read_path_table(const Section& s, const Stage& stage, Lookup& lookup,
+                                         ReadPathKey* read, std::string_view keyframe) {
   const Item* by = s.one_of({"keyframes", "file"});
-  const bool mirrored = is_in_region_three(s);
   if (!by) {
-    s.require("keyframes", ": a list of {at_m, r, azimuth_deg}; or give file, a table of states");
+    s.require("keyframes",
+              fmt::format(": a list of {{{}}}; or give file, a table of states", keyframe));
     return std::nullopt;
   }
-  Table table;
+  if (s.find("keyframes")) {
+    const auto keys = read_keyframes(*by, stage, lookup, read);
+    return keys ? std::optional(PathTable{by, *keys}) : std::nullopt;
+  }
+  const auto name = read_text(*by);
+  const auto file = name ? lookup.file(*by, *name) : std::nullopt;
+  if (!file) return std::nullopt;
   try {
-    if (s.find("keyframes")) {
-      const auto keys = read_path_keys(*by, stage, lookup);
-      if (!keys) return std::nullopt;
-      table.keys = *keys;
-    } else {
-      const auto name = read_text(*by);
-      const auto file = name ? lookup.file(*by, *name) : std::nullopt;
-      if (!file) return std::nullopt;
-      table = read_table(*file, stage.spacetime);
-    }
-    const AcceleratedPath path(table.keys, table.tetrad, stage.spacetime);
+    PathTable table = read_file(*file, stage.spacetime);
+    table.item = by;
+    return table;
+  } catch (const InputError& error) {
+    return by->fail(std::string("names a table in error: ") + error.what());
+  }
+}
+
+std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, Lookup& lookup) {
+  const Section s(item, {"trajectory", "region", "path", "begin", "end", "rates", "pace"});
+  const bool mirrored = is_in_region_three(s);
+  const auto table = read_path_table(s, stage, lookup, read_key, "at_m, r, azimuth_deg");
+  return flown(table, [&](const PathTable& way) -> std::optional<TimedTrajectory> {
+    const AcceleratedPath path(way.keys, way.tetrad, stage.spacetime);
     const Defaults whole{path.begin(), Leg::kInward, path.begin(), {}, path.end()};
     const auto timing = read_timing(s, stage, path, whole);
     if (!timing) return std::nullopt;
     return TimedTrajectory{path, *timing, {mirrored}};
-  } catch (const std::domain_error& error) {
-    by->fail(std::string("cannot be flown: ") + error.what());
-  } catch (const InputError& error) {
-    by->fail(std::string("names a table in error: ") + error.what());
-  }
-  return std::nullopt;
+  });
 }
 
 }  // namespace domefall

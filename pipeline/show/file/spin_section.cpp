@@ -293,22 +293,15 @@ std::optional<TimedTrajectory> read_spin_velocity(const Item& item, const Stage&
 std::optional<TimedTrajectory> read_spin_path(const Item& item, const Stage& stage,
                                               Lookup& lookup) {
   const Section s(item, {"trajectory", "path about a spin", "begin", "end", "rates", "pace"});
-  const Item* list = s.require("keyframes", ": a list of {at_m, r, latitude_deg, azimuth_deg}");
-  const auto items = list ? read_list(*list) : std::nullopt;
-  if (!items) return std::nullopt;
-  std::vector<PathKey> keys;
-  for (const Item& one : *items)
-    if (const auto key = read_kerr_key(one, stage, lookup)) keys.push_back(*key);
-  if (keys.size() < items->size()) return std::nullopt;
-  try {
-    const KerrFlight flight(hole_of(stage), keys);
+  const auto table =
+      read_path_table(s, stage, lookup, read_kerr_key, "at_m, r, latitude_deg, azimuth_deg");
+  return flown(table, [&](const PathTable& way) -> std::optional<TimedTrajectory> {
+    const KerrFlight flight(hole_of(stage), way.keys);
     const Defaults whole{flight.begin(), Leg::kInward, flight.begin(), {}, flight.end()};
     const auto timing = read_timing(s, stage, flight, whole);
     if (!timing) return std::nullopt;
     return TimedTrajectory{flight, *timing, {}};
-  } catch (const std::domain_error& error) {
-    return list->fail(std::string("cannot be flown: ") + error.what());
-  }
+  });
 }
 
 }  // namespace domefall

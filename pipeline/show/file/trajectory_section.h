@@ -153,7 +153,27 @@ std::optional<TimedTrajectory> paced_circle(const Item& item, const Section& s, 
 std::optional<TimedTrajectory> read_spiral(const Item& item, const Stage& stage, Lookup& lookup);
 std::optional<TimedTrajectory> read_braked(const Item& item, const Stage& stage, Lookup& lookup);
 
-// Reads a path through keyframes in the show file, or through the rows of a CSV file.
+// What the keyframes of a path say, or the rows of its CSV file.
+struct PathTable {
+  const Item* item = nullptr;  // the list, or the file's name
+  std::vector<PathKey> keys;
+  Tetrad tetrad = Tetrad::kRain;
+};
+using ReadPathKey = std::optional<PathKey>(const Item& keyframe, const Stage& stage,
+                                           Lookup& lookup);
+// Reads `keyframes`, with the keys `keyframe`, by `read`, or `file`.  Returns nothing for an error.
+std::optional<PathTable> read_path_table(const Section& s, const Stage& stage, Lookup& lookup,
+                                         ReadPathKey* read, std::string_view keyframe);
+// Returns the path that `make` makes of a table, or reports why it cannot be flown.
+template <class Make>
+std::optional<TimedTrajectory> flown(const std::optional<PathTable>& table, const Make& make) {
+  if (!table) return std::nullopt;
+  try {
+    return make(*table);
+  } catch (const std::domain_error& error) {
+    return table->item->fail(std::string("cannot be flown: ") + error.what());
+  }
+}
 std::optional<TimedTrajectory> read_path(const Item& item, const Stage& stage, Lookup& lookup);
 
 // ---- velocities: how fast, where to, and against which observer ----

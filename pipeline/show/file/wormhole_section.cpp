@@ -24,6 +24,19 @@ GivenVelocity rest_at(const Wormhole& wormhole, double l) {
   return rest;
 }
 
+std::optional<PathKey> read_wormhole_key(const Item& item, const Stage& stage, Lookup& lookup) {
+  const Section s(item, {"keyframes in a wormhole", "speed"});
+  const auto at = s.required("at_m"), l = s.required("l");
+  if (!at || !l) return std::nullopt;
+  PathKey key{*at, *l, s.angle("azimuth_deg"), {}, {}};
+  const Wormhole& wormhole = wormhole_of(stage);
+  if (const auto own = read_speed_on_path(s, stage, rest_at(wormhole, *l), lookup)) {
+    key.radial_rate = own->x;
+    key.azimuth_rate = own->z / wormhole.radius(*l);
+  }
+  return key;
+}
+
 }  // namespace
 
 std::optional<TimedTrajectory> read_wormhole_rest(const Item& item, const Stage& stage, Lookup&) {
@@ -84,31 +97,15 @@ std::optional<TimedTrajectory> read_wormhole_throw(const Item& item, const Stage
 std::optional<TimedTrajectory> read_wormhole_path(const Item& item, const Stage& stage,
                                                   Lookup& lookup) {
   const Section s(item, {"trajectory", "path in a wormhole", "end in a wormhole", "rates", "pace"});
-  const Item* list = s.require("keyframes", ": a list of {at_m, l, azimuth_deg}");
-  const auto items = list ? read_list(*list) : std::nullopt;
-  if (!items) return std::nullopt;
-  std::vector<PathKey> keys;
-  for (const Item& one : *items) {
-    const Section key(one, {"keyframes in a wormhole", "speed"});
-    const auto at = key.required("at_m"), l = key.required("l");
-    if (!at || !l) continue;
-    keys.push_back({*at, *l, key.angle("azimuth_deg")});
-    const auto own = read_speed_on_path(key, stage, rest_at(wormhole_of(stage), *l), lookup);
-    if (!own) continue;
-    keys.back().radial_rate = own->x;
-    keys.back().azimuth_rate = own->z / wormhole_of(stage).radius(*l);
-  }
-  if (keys.size() < items->size()) return std::nullopt;
-  try {
-    const WormholeFlight flight(wormhole_of(stage), keys);
+  const auto table = read_path_table(s, stage, lookup, read_wormhole_key, "at_m, l, azimuth_deg");
+  return flown(table, [&](const PathTable& way) -> std::optional<TimedTrajectory> {
+    const WormholeFlight flight(wormhole_of(stage), way.keys);
     Defaults whole;
     whole.to_tau = flight.end();
     const auto timing = read_end(s, stage, flight, flight.begin(), whole);
     if (!timing) return std::nullopt;
     return TimedTrajectory{flight, *timing, {}};
-  } catch (const std::domain_error& error) {
-    return list->fail(std::string("cannot be flown: ") + error.what());
-  }
+  });
 }
 
 std::optional<TimedTrajectory> read_wormhole_velocity(const Item& item, const Stage& stage,
