@@ -6,7 +6,6 @@
 
 #include "pipeline/render/disc_scene.h"
 #include "pipeline/render/overlay/frame_titles.h"
-#include "pipeline/render/scene/body_sight.h"
 #include "pipeline/render/scene/seen_magnitude.h"
 #include "pipeline/render/scene/star_light.h"
 #include "pipeline/render/scene/star_sight.h"
@@ -33,13 +32,23 @@ PixelProbe::PixelProbe(const Show& show, const FrameState& state, PixelPosition 
       towards_(direction_at(state.projection, pixel)),
       width_(pixel_angle(state.projection, pixel)),
       scene_(std::make_unique<const DiscScene>(show, state)),
-      state_(scene_->scene.state) {}
+      state_(scene_->scene.state),
+      sight_(state_, show.effects, show.least_star_radius),
+      bodies_(bodies_at(show, state_.settings)),
+      covers_(sight_, bodies_, scene_->scene.point_spread.least()) {}
 
 PixelProbe::~PixelProbe() = default;
 
 ViewRay PixelProbe::ray() const { return scene_->scene.tracer.trace(towards_); }
 
 double PixelProbe::left_of_sky() const { return scene_->left_before(towards_, HUGE_VAL, width_); }
+
+double PixelProbe::left_by_bodies() const { return covers_.left_before(towards_, HUGE_VAL); }
+
+// What is seen at the pixel of an image is hidden there.
+double PixelProbe::left_before(const CameraDirection& image, double way, double far) const {
+  return scene_->left_before(image, way, width_) * covers_.left_before(towards_, far);
+}
 
 bool PixelProbe::reaches(const CameraDirection& image) const {
   constexpr double kSigmas = 3.5;  // how far the smallest blob reaches
@@ -81,7 +90,7 @@ std::vector<StarAtPixel> PixelProbe::stars() const {
         if (faint == 2) break;
         if (faint > 0 || !reaches(image.direction)) continue;
         const auto at = pixel_of(state_.projection, image.direction);
-        const double seen = seen_v(scene_->left_before(image.direction, HUGE_VAL, width_));
+        const double seen = seen_v(left_before(image.direction, HUGE_VAL, HUGE_VAL));
         if (!at || !(seen <= kFaintestSeen)) continue;
         const Equatorial place = equatorial(star.direction);
         found.push_back({names_of_star(catalogue, star), sky, place.ra_deg, place.dec_deg, v,
@@ -95,24 +104,24 @@ std::vector<StarAtPixel> PixelProbe::stars() const {
 
 std::vector<BodyAtPixel> PixelProbe::bodies() const {
   const double sigma = scene_->scene.point_spread.least();
-  const BodySight sight(state_, show_.effects, show_.least_star_radius);
   std::vector<BodyAtPixel> found;
-  if (!sight.sees()) return found;
-  for (const Body& body : bodies_at(show_, state_.settings)) {
+  if (!sight_.sees()) return found;
+  for (const Body& body : bodies_) {
     int faint = 0;
-    for (int order = sight.first_order(body);
+    for (int order = sight_.first_order(body);
          order < BodySight::kMostOrders && faint < BodySight::kFaintOrders; ++order) {
-      const auto image = sight.image(body, order);
+      const auto image = sight_.image(body, order);
       if (!image) break;
-      const BodySight::Seen seen = sight.seen(image->at);
-      const double left = scene_->left_before(seen.direction, image->traced.way(), width_);
-      const auto pieces = sight.pieces(body, *image, sigma);
-      const double magnitude = sight.seen_v(body, image->at, pieces) - 2.5 * std::log10(left);
+      const BodySight::Seen seen = sight_.seen(image->at);
+      const double left =
+          left_before(seen.direction, image->traced.way(), sight_.far(body, image->traced));
+      const auto pieces = sight_.pieces(body, *image, sigma);
+      const double magnitude = sight_.seen_v(body, image->at, pieces) - 2.5 * std::log10(left);
       faint = magnitude <= kFaintestSeen ? 0 : faint + 1;
       const auto at = pixel_of(state_.projection, seen.direction);
       if (faint > 0 || !at) continue;
       const auto is_near = [&](const BodySight::Piece& piece) {
-        return reaches(sight.seen(piece.at).direction);
+        return reaches(sight_.seen(piece.at).direction);
       };
       if (is_near({image->at}) || std::ranges::any_of(pieces, is_near))
         found.push_back({body.name, image->traced.r, magnitude, seen.frequency_ratio, order, *at});

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "pipeline/light/lens.h"
+#include "pipeline/render/scene/body_covers.h"
+#include "pipeline/render/scene/body_sight.h"
 #include "pipeline/show/frame_state.h"
 
 namespace domefall {
@@ -26,9 +28,9 @@ struct StarAtPixel {
   SkyRegion sky;                   // that the star belongs to
   double ra_deg, dec_deg;          // of the star, J2000
   double v, temperature;           // of the star, the latter in kelvin
-  double seen_v;                   // of the image, behind the disc and under the show's effects
-  int order;                       // of the image
-  PixelPosition at;                // of its middle
+  double seen_v;     // of the image, behind discs and bodies, under the show's effects
+  int order;         // of the image
+  PixelPosition at;  // of its middle
 };
 
 struct BodyAtPixel {
@@ -54,11 +56,13 @@ class PixelProbe {
   ViewRay ray() const;
   // Returns the images of the disc in the pixel, the nearest first.
   std::vector<DiscAtPixel> disc() const;
-  // Returns the part of the light of a sky that the disc lets through.
+  // Returns the part of the light of a sky that the disc lets through, and that the spheres of bodies do.
   double left_of_sky() const;
+  double left_by_bodies() const;
   // Returns the images of bodies and of stars that the frame draws, the brightest first.  The middle
   // of each, or of a piece that it is drawn in, is so near to the pixel that the smallest blob of the
-  // frame (PointSpread) reaches it.  Images that are seen fainter than kFaintestSeen are left out.
+  // frame (PointSpread) reaches it.  Images that are seen fainter than kFaintestSeen are left out, and
+  // so are those that are behind a body there.
   // For stars the show's catalogues are read; throws as read_star_catalogue.
   std::vector<BodyAtPixel> bodies() const;
   std::vector<StarAtPixel> stars() const;
@@ -67,6 +71,7 @@ class PixelProbe {
 
  private:
   bool reaches(const CameraDirection& image) const;
+  double left_before(const CameraDirection& image, double way, double far) const;
 
   const Show& show_;
   PixelPosition pixel_;
@@ -74,6 +79,9 @@ class PixelProbe {
   double width_;  // of the pixel, radians
   std::unique_ptr<const DiscScene> scene_;
   const FrameState& state_;  // of the scene
+  BodySight sight_;
+  std::vector<Body> bodies_;
+  BodyCovers covers_;
 };
 
 }  // namespace domefall

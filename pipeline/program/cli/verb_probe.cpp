@@ -51,7 +51,8 @@ struct Probed {
   PixelPosition pixel;
   ViewRay ray;
   std::vector<DiscAtPixel> disc;
-  double left_of_sky;  // the part of its light that the disc lets through
+  double left_of_sky;     // the part of its light that the disc lets through
+  double left_by_bodies;  // and that bodies do
   std::vector<StarAtPixel> stars;
   std::vector<BodyAtPixel> bodies;
   std::vector<std::string> titles;
@@ -117,6 +118,8 @@ void print_text(const Probed& p) {
         "body         {}, at {:.6g} M, 1 + z {:.6g}, seen as V {:.2f}, image {} at {:.2f},{:.2f}\n",
         printable(body.name), body.r, 1 / body.frequency_ratio, body.seen_v, body.order, body.at.i,
         body.at.j);
+  if (p.left_by_bodies < 1)
+    fmt::print("behind them  {:.4g} of the light is left\n", p.left_by_bodies);
 }
 
 Json json_of_star(const StarAtPixel& star) {
@@ -192,6 +195,7 @@ void print_probe_json(const Probed& p) {
   // A show without bodies has no such key.
   if (!p.show.bodies.empty()) json["bodies"] = Json::array();
   for (const BodyAtPixel& body : p.bodies) json["bodies"].push_back(json_of_body(body));
+  if (!p.show.bodies.empty()) json["left_behind_bodies"] = p.left_by_bodies;
   // Likewise a show without a disc, and one without titles.
   if (p.show.disc) {
     json["disc"] = Json::array();
@@ -208,9 +212,16 @@ void probe(const ProbeOptions& o) {
   const FrameState state = frame_state(show, chosen_frame(o.choice, show));
   const PixelPosition pixel = parse_pixel(o.pixel);
   const PixelProbe probe(show, state, pixel);
-  const Probed probed{show,          state,          pixel,
-                      probe.ray(),   probe.disc(),   probe.left_of_sky(),
-                      probe.stars(), probe.bodies(), probe.titles()};
+  const Probed probed{show,
+                      state,
+                      pixel,
+                      probe.ray(),
+                      probe.disc(),
+                      probe.left_of_sky(),
+                      probe.left_by_bodies(),
+                      probe.stars(),
+                      probe.bodies(),
+                      probe.titles()};
   o.json ? print_probe_json(probed) : print_text(probed);
 }
 

@@ -68,7 +68,7 @@ std::string LivePictures::probe(const PictureRequest& request, PixelPosition at)
                             {"redshift", 1 / disc.frequency_ratio},
                             {"temperature_k", disc.temperature},
                             {"order", disc.order}});
-  json["left"] = pixel.left_of_sky();
+  json["left"] = pixel.left_of_sky() * pixel.left_by_bodies();
   for (const BodyAtPixel& body : pixel.bodies()) json["bodies"].push_back(body.name);
   for (const std::string& title : pixel.titles()) json["titles"].push_back(title);
   json["star"] = star_near(labels_->images(seen), seen.projection, at);

@@ -11,7 +11,9 @@
 #include "pipeline/render/overlay/coverage.h"
 #include "pipeline/render/overlay/frame_marks.h"
 #include "pipeline/render/overlay/stroke.h"
+#include "pipeline/render/scene/body_covers.h"
 #include "pipeline/render/scene/body_sight.h"
+#include "pipeline/render/scene/point_spread.h"
 #include "pipeline/render/scene/seen_magnitude.h"
 #include "pipeline/render/scene/star_light.h"
 #include "pipeline/render/scene/star_sight.h"
@@ -61,18 +63,18 @@ double left_of(const LightLeft& left, const CameraDirection& from, double psi) {
 }
 
 // Appends the first two images of each body, as for a star.
-void append_bodies(const Show& show, const FrameState& state, const LightLeft& left,
+void append_bodies(const Show& show, const std::vector<Body>& bodies, const BodySight& sight,
+                   const BodyCovers& covers, const LightLeft& left,
                    std::vector<NamedImage>& found) {
-  const BodySight sight(state, show.effects, show.least_star_radius);
   if (!sight.sees()) return;
-  for (const Body& body : bodies_at(show, state.settings))
+  for (const Body& body : bodies)
     for (int order = 0; order < 2; ++order)
       if (const auto image = sight.image(body, order)) {
         const BodySight::Seen seen = sight.seen(image->at);
-        const double magnitude =
-            seen_magnitude(show.effects, body.magnitude, body.temperature,
-                           seen.brightening * left_of(left, seen.direction, image->traced.way()),
-                           seen.frequency_ratio);
+        const double part = left_of(left, seen.direction, image->traced.way()) *
+                            covers.left_before(seen.direction, sight.far(body, image->traced));
+        const double magnitude = seen_magnitude(show.effects, body.magnitude, body.temperature,
+                                                seen.brightening * part, seen.frequency_ratio);
         if (magnitude <= kFaintestNamedImage)
           found.push_back(named_image(body.name, order, seen.direction, magnitude));
       }
@@ -102,6 +104,10 @@ const std::vector<StarLabels::NamedStarOfSky>& StarLabels::stars_of(SkyRegion sk
 std::vector<NamedImage> StarLabels::images(const FrameState& state, const LightLeft& left) {
   std::vector<NamedImage> found;
   const StarSight finder(state, show_.effects);
+  const std::vector<Body> bodies = bodies_at(show_, state.settings);
+  const BodySight sight(state, show_.effects, show_.least_star_radius);
+  const BodyCovers covers(sight, bodies,
+                          PointSpread(show_.point_spread, state.projection, 1).least());
   for (const SkyRegion sky : kExteriorSkies) {
     if (!finder.sees(sky)) continue;
     const FrameSettings::Sky& settings = state.settings.sky[sky];
@@ -116,13 +122,14 @@ std::vector<NamedImage> StarLabels::images(const FrameState& state, const LightL
                                 part * drawn * image.brightening, image.frequency_ratio);
         };
         if (!(seen_v(1) <= kFaintestNamedImage)) continue;
-        const double magnitude = seen_v(left_of(left, image.direction, HUGE_VAL));
+        const double magnitude = seen_v(left_of(left, image.direction, HUGE_VAL) *
+                                        covers.left_before(image.direction, HUGE_VAL));
         if (!(magnitude <= kFaintestNamedImage)) continue;
         found.push_back(named_image(star.name, order, image.direction, magnitude));
       }
     }
   }
-  append_bodies(show_, state, left, found);
+  append_bodies(show_, bodies, sight, covers, left, found);
   std::ranges::stable_sort(found, {}, &NamedImage::magnitude);
   return found;
 }

@@ -9,6 +9,7 @@
 #include "pipeline/render/disc_scene.h"
 #include "pipeline/render/frame_key.h"
 #include "pipeline/render/overlay/star_labels.h"
+#include "pipeline/render/pixel_probe.h"
 #include "pipeline/render/scene/body_sight.h"
 #include "pipeline/render/shutter.h"
 #include "tests/pipeline/render/scenes.h"
@@ -212,8 +213,8 @@ Body body_in_line(double r, double radius, double magnitude) {
   return body;
 }
 
-// The frame of some of them, in which only the direct images are looked at.
-FloatImage frame_in_line(const std::vector<Body>& bodies) {
+// Some of them, named by their places in the list.
+Show show_in_line(const std::vector<Body>& bodies) {
   Show show = show_with(30, bodies[0]);
   const Body placed = show.bodies[0];
   show.bodies.clear();
@@ -224,7 +225,12 @@ FloatImage frame_in_line(const std::vector<Body>& bodies) {
   }
   if (reach(bodies[0].trajectory).first > 30) show.timeline[0].camera.attitude = LookOutward{};
   show.point_spread.min_sigma = show.point_spread.max_sigma = 0.2 * kDegree;
-  FloatImage frame = body_frame(show);
+  return show;
+}
+
+// Their frame, in which only the direct images are looked at.
+FloatImage frame_in_line(const std::vector<Body>& bodies) {
+  FloatImage frame = body_frame(show_in_line(bodies));
   for (int row = 0; row < frame.height; ++row)
     for (int column = 0; column < frame.width; ++column)
       if (std::hypot(row - 100, column - 100) > 40)
@@ -265,6 +271,37 @@ TEST(Bodies, HideThoseBehindThem) {
                     (light_of(frame_in_line({spark})).sum + light_of(large).sum),
                 1, 1e-5);
   }
+}
+
+// Who asks for a pixel is told what is seen there, and only that has a name.
+TEST(Bodies, ThatAreHiddenAreNotTold) {
+  const Body wide = body_in_line(20, 1, -8), spark = body_in_line(20, 0, -8),
+             star = body_in_line(10, 0, -14);
+  const auto told = [](const Show& show, double column) {
+    std::vector<std::string> names;
+    for (const BodyAtPixel& body : PixelProbe(show, frame_state(show, 0), {column, 101}).bodies())
+      if (body.order == 0) names.push_back(body.name);
+    return names;
+  };
+  const auto named = [](const Show& show) {
+    std::vector<std::string> names;
+    for (const NamedImage& image : StarLabels(show).images(frame_state(show, 0)))
+      if (!image.secondary) names.push_back(image.name);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  const Show hidden = show_in_line({star, wide}), beside = show_in_line({star, spark});
+  EXPECT_EQ(told(hidden, 101), Names{"1"});
+  EXPECT_EQ(named(hidden), Names{"1"});
+  EXPECT_EQ(told(beside, 101), (Names{"0", "1"}));
+  EXPECT_EQ(named(beside), (Names{"0", "1"}));
+  // A sphere of 1 M at 10 M is seen within some 30 pixels of 0.2 degrees.
+  const auto left = [&](double column) {
+    return PixelProbe(hidden, frame_state(hidden, 0), {column, 101}).left_by_bodies();
+  };
+  EXPECT_EQ(left(101), 0);
+  EXPECT_EQ(left(120), 0);
+  EXPECT_EQ(left(140), 1);
 }
 
 // Discs that stand across the orbit, in a plane at an azimuth between the observer's and the body's

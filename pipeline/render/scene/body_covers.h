@@ -1,0 +1,33 @@
+// What the spheres of a frame's bodies hide, for questions about single directions.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pipeline/render/scene/body_sight.h"
+
+namespace domefall {
+
+class BodyCovers {
+ public:
+  // Spheres are drawn in blobs of this width (radians; PointSpread::least).
+  BodyCovers(const BodySight& sight, std::span<const Body> bodies, double sigma);
+
+  // Returns the part of light from beyond `far` (BodySight::far) that spheres let through: 1 where
+  // none is, 0 behind one.  At its edge a sphere is as soft as it is drawn.
+  double left_before(const CameraDirection& direction, double far) const;
+
+ private:
+  // An image of a sphere, within `radius` (a chord) of its middle.
+  struct Cover {
+    double far;
+    V3d middle;
+    double radius;
+    std::vector<V3d> directions;
+    std::vector<double> solid_angles;  // of the pieces, for the camera
+  };
+  std::vector<Cover> covers_;
+  double sigma_;
+};
+
+}  // namespace domefall
