@@ -28,4 +28,11 @@ FrameState without_stars(FrameState state) {
   return state;
 }
 
+FrameState as_draft(FrameState state) {
+  state.draft = true;
+  if (state.vanishing)
+    state.vanishing = std::make_shared<const FrameState>(as_draft(*state.vanishing));
+  return state;
+}
+
 }  // namespace domefall

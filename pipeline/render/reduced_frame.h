@@ -20,4 +20,7 @@ FrameState reduced(FrameState state, int width);
 // Returns the same frame with no star in any sky.
 FrameState without_stars(FrameState state);
 
+// Returns the state for a passing look (FrameState::draft).
+FrameState as_draft(FrameState state);
+
 }  // namespace domefall

@@ -92,8 +92,7 @@ class LightMeter {
 };
 
 FrameLight measured(const Show& show, int frame, int width, Renderer& renderer, LightMeter& meter) {
-  FrameState state = reduced(frame_state(show, frame), width);
-  state.draft = true;
+  const FrameState state = as_draft(reduced(frame_state(show, frame), width));
   FrameLight light{frame, state.show_time_s, state.segment, state.settings.ev, state.fade};
   meter.measure(renderer.render(state), state, light);
   return light;

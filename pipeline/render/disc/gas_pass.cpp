@@ -81,8 +81,7 @@ GasPass::GasPass(const FrameScene& scene, const std::atomic<bool>* stop)
       least_(kNearest * largest_pixel_angle(scene.projection())) {
   const double least = std::clamp(kOfFinest * rays_.finest(), kClosest, kSpacing),
                pixels = kPixels * largest_pixel_angle(scene.projection());
-  const double spacing =
-      std::clamp(pixels, least, scene.plan.pixel > 0 ? std::max(pixels, least) : 1.5 * least);
+  const double spacing = std::clamp(pixels, least, scene.plan.pixel > 0 ? HUGE_VAL : 1.5 * least);
   even_rows_ = 1 / spacing;
   columns_ = std::clamp(static_cast<int>(2 * pi / spacing), 64, 4096);
   blocks_ = rays_.has_pattern() ? kMostBlocks : 1;
