@@ -13,6 +13,7 @@
 #include "pipeline/light/kerr_view.h"
 #include "pipeline/light/lagrange.h"
 #include "pipeline/light/light_path.h"
+#include "pipeline/light/plane_rays.h"
 #include "pipeline/light/sphere_rays.h"
 
 namespace domefall {
@@ -39,7 +40,8 @@ void step_along(const KerrPlace& at, double delta, double eta, double outer,
   for (std::size_t k = 1; k < path.places.size() && order < nodes.size(); ++k) {
     const LightPath::Place &a = path.places[k - 1], &b = path.places[k];
     const double from = a.at.dot(axis), to = b.at.dot(axis);
-    if ((from > 0) == (to > 0)) continue;
+    // Who is in the plane crosses it later at the earliest.
+    if ((from > 0) == (to > 0) || std::abs(from) < kInPlane) continue;
     const V3d side = axis * (from > 0 ? 1 : -1);
     const double t = root_between(0, std::abs(from), 1, -std::abs(to), kEnough, [&](double part) {
       return LightPath::direction(a, b, part).dot(side);

@@ -88,7 +88,7 @@ PlaneRays::PlaneRays(const PlaneView& view, double null_time, const PlaneRings& 
       label_sign_(is_outgoing(view.tetrad) && !straight_ ? -1 : 1),
       energy_sign_(is_mirrored(view.tetrad) ? -1 : 1),
       clock_(view, null_time),
-      normal_up_(rings.normal.x),
+      normal_up_(std::abs(rings.normal.x) < kInPlane ? 0 : rings.normal.x),
       normal_across_(std::sqrt(rings.normal.y * rings.normal.y + rings.normal.z * rings.normal.z)),
       normal_cosine_(normal_across_ > 0 ? rings.normal.y / normal_across_ : 1),
       normal_sine_(normal_across_ > 0 ? rings.normal.z / normal_across_ : 0),

@@ -13,6 +13,10 @@
 
 namespace domefall {
 
+// Who is nearer to a plane than this part of r is in it, and sees it edge-on: roundings of a place do not
+// choose a side.
+inline constexpr double kInPlane = 1e-13;
+
 struct PlaneRings {
   V3d normal;           // along R, Theta, Phi; unit
   double inner, outer;  // M

@@ -149,7 +149,13 @@ void TracedRings::add_parts(const std::pair<double, double>& range, int halvings
 
 std::vector<TracedRings> TracedRings::parts() const {
   constexpr int kMostHalvings = 6;
+  constexpr double kEdgeOn = 1e-9;  // of r
   std::vector<TracedRings> parts;
+  // Who is in the plane of the rings together with the hole sees a line.
+  const V3d centre = SphereCentre(view.spacetime, motion.at(image.proper_time)).place;
+  if (std::abs(rings_.normal.x) < kEdgeOn &&
+      std::abs(centre.dot(rings_.normal)) < kEdgeOn * centre.length())
+    return parts;
   for (const auto& range : ranges([this](const V3d& e) {
          const auto found = line(e);
          return found ? found->clear : -1;
