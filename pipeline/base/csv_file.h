@@ -29,6 +29,8 @@ class CsvFile {
   CsvFile& operator=(const CsvFile&) = delete;
   ~CsvFile() = default;
 
+  // The names of the columns, in lower case.
+  const std::vector<std::string>& columns() const { return columns_; }
   bool has(std::string_view column) const;
   // The same in these cases of letters: k is not K.
   bool has_as_written(std::string_view column) const;

@@ -72,6 +72,11 @@ timeline: [{duration_s: 1, trajectory: {type: path, file: marked.csv}}]
 SHOW
 exits 0 "$DOMEFALL" states marked.yaml
 
+# A column that is nearly one of a path's was meant to be that.
+printf 'proper_time,r,latitude\n0,12,30\n10,11,30\n' >marked.csv
+exits 2 "$DOMEFALL" states marked.yaml
+says "marked.csv:1: no path has a column 'latitude'; did you mean latitude_deg?"
+
 # Out of region IV and back into II the tetrad changes: the halves are paths, the whole is none.
 cat >crossing.yaml <<'SHOW'
 frames_per_second: 10

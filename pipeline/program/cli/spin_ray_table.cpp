@@ -42,6 +42,7 @@ SpinRay ray_of(const CsvFile& rows) {
   ray.edge = text("edge");
   // With an edge either may be left out; without one delta may not, nor may the offset be given.
   if (ray.edge.empty() || !text("delta").empty()) ray.delta = number("delta");
+  if (!ray.edge.empty() && !rows.has("offset")) throw InputError("edge needs a column offset");
   if (!ray.edge.empty() || !text("offset").empty()) ray.offset = number("offset");
   return ray;
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -108,11 +109,15 @@ void print_text(const Probed& p) {
         disc.covered);
   if (!p.disc.empty()) fmt::print("behind it    {:.4g} of the light is left\n", p.left_of_sky);
   print_sky(p);
-  for (const StarAtPixel& star : p.stars) {
+  // Under thin gas or far from the hole hundreds of faint ones may be there.
+  constexpr std::size_t kMostStars = 12;
+  for (const StarAtPixel& star : std::span(p.stars).first(std::min(p.stars.size(), kMostStars))) {
     const std::string name = star.names.empty() ? "without a name" : star.names.front();
     fmt::print("star         {}, V {:.2f} seen as V {:.2f}, image {} at {:.2f},{:.2f}\n",
                printable(name), star.v, star.seen_v, star.order, star.at.i, star.at.j);
   }
+  if (p.stars.size() > kMostStars)
+    fmt::print("stars        {} fainter ones\n", p.stars.size() - kMostStars);
   for (const BodyAtPixel& body : p.bodies)
     fmt::print(
         "body         {}, at {:.6g} M, 1 + z {:.6g}, seen as V {:.2f}, image {} at {:.2f},{:.2f}\n",
@@ -211,6 +216,10 @@ void probe(const ProbeOptions& o) {
   const Show show = read_show(o.show, o.size, {});
   const FrameState state = frame_state(show, chosen_frame(o.choice, show));
   const PixelPosition pixel = parse_pixel(o.pixel);
+  const int width = columns(state.projection), height = rows(state.projection);
+  if (!(pixel.i >= 0.5 && pixel.i <= width + 0.5 && pixel.j >= 0.5 && pixel.j <= height + 0.5))
+    throw InputError(fmt::format("--pixel {} is outside of the frame, which has {} x {}", o.pixel,
+                                 width, height));
   const PixelProbe probe(show, state, pixel);
   const Probed probed{show,
                       state,

@@ -70,7 +70,7 @@ class TitleOnDome {
     if (title.place) sky_.emplace(state, show.effects);
     if (title.body) {
       if (const auto image = body_image(show, *title.body, state))
-        surface_.emplace(below(*image, title, state));
+        surface_.emplace(below(image->direction, title, state, image->reach));
     } else if (!title.place) {
       surface_.emplace(state.camera_from_audience, title.azimuth, title.elevation, title.height);
     } else if (sky_->is_seen()) {
@@ -90,20 +90,25 @@ class TitleOnDome {
   }
 
  private:
+  struct Seen {
+    CameraDirection direction;
+    double reach;  // radians
+  };
   // Returns where the direct image of a body is seen, or nothing where there is none.
-  static std::optional<CameraDirection> body_image(const Show& show, std::size_t body,
-                                                   const FrameState& state) {
+  static std::optional<Seen> body_image(const Show& show, std::size_t body,
+                                        const FrameState& state) {
     const BodySight sight(state, show.effects, show.least_star_radius);
     const auto image = sight.sees() ? sight.image(show.bodies[body], 0) : std::nullopt;
-    return image ? std::optional(sight.seen(image->at).direction) : std::nullopt;
+    if (!image) return std::nullopt;
+    return Seen{sight.seen(image->at).direction, sight.reach(show.bodies[body], *image)};
   }
 
-  // Returns where a text lies that stands clear below an image.
-  TextSurface below(const CameraDirection& image, const Title& title,
-                    const FrameState& state) const {
+  // Returns where a text lies that stands clear below an image, which reaches so far down (radians).
+  TextSurface below(const CameraDirection& image, const Title& title, const FrameState& state,
+                    double reach = 0) const {
     constexpr double kGap = 1;  // from the image to the text, in capitals
     return TextSurface::at(state.camera_from_audience, image, title.height,
-                           (kGap + letters_->half_height) * title.height);
+                           reach + (kGap + letters_->half_height) * title.height);
   }
 
   const Projection& projection_;

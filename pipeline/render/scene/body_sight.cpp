@@ -71,6 +71,13 @@ double BodySight::size_of(const BodyImage& image, double radius) const {
   return lens_->lists_bodies() ? kerr_size_of_sphere(image, radius) : size_of_sphere(image, radius);
 }
 
+double BodySight::reach(const Body& body, const Image& image) const {
+  constexpr double kMost = std::numbers::pi / 8;  // of arcs next to a caustic
+  if (!(body.radius > 0)) return 0;
+  const double radius = body.radius * (body.rings.empty() ? 1 : body.rings.back().outer);
+  return std::min(size_of(image.traced, radius) / 2 / seen(image.at).doppler, kMost);
+}
+
 int BodySight::first_order(const Body& body) const {
   if (!is_too_near(body)) return 0;
   return body.radius > 0 ? kMostOrders : 1;

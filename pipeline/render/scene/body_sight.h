@@ -80,6 +80,10 @@ class BodySight {
   };
   Seen seen(const SkyImage& image) const;
 
+  // Returns how far the image of a body, or of its rings, reaches from its middle at most (radians, for
+  // the camera; to first order, and at most pi/8).  It is 0 for a point.
+  double reach(const Body& body, const Image& image) const;
+
   // Returns the V of an image as it is drawn.
   double seen_v(const Body& body, const SkyImage& at, const std::vector<Piece>& pieces) const;
 

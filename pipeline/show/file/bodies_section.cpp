@@ -356,8 +356,16 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
   const std::vector<Body> all = bodies;
   for (Body& body : bodies)
     if (auto* lamp =
-            body.lit_from ? std::get_if<std::shared_ptr<const Body>>(&*body.lit_from) : nullptr)
+            body.lit_from ? std::get_if<std::shared_ptr<const Body>>(&*body.lit_from) : nullptr) {
       *lamp = std::make_shared<const Body>(*std::ranges::find(all, (*lamp)->name, &Body::name));
+      const auto* other = (*lamp)->lit_from
+                              ? std::get_if<std::shared_ptr<const Body>>(&*(*lamp)->lit_from)
+                              : nullptr;
+      if (other && (*other)->name == body.name)
+        names.at(body.name).fail(
+            fmt::format("is lit from '{}', which is lit from it: one of them must shine by itself",
+                        shown((*lamp)->name)));
+    }
   return bodies;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -7,6 +8,7 @@
 #include "pipeline/base/csv_file.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/show/file/trajectory_section.h"
+#include "pipeline/show/nearest_word.h"
 #include "pipeline/show/state_columns.h"
 #include "trajectories/kerr_flight.h"
 
@@ -128,6 +130,14 @@ PathTable read_file(const std::filesystem::path& file, const Spacetime& spacetim
   const bool throat = std::holds_alternative<Wormhole>(spacetime.kind());
   const bool spins = std::holds_alternative<SpinningHole>(spacetime.kind());
   CsvFile csv(file, {kTimeColumn, throat ? kThroatColumn : kRadiusColumn});
+  // Columns of others are welcome, but not in place of one that is left out.
+  constexpr std::array known{kTimeColumn,    kRadiusColumn,   kThroatColumn,
+                             kAzimuthColumn, kLatitudeColumn, kTetradColumn,
+                             kRadialColumn,  kNormalColumn,   kAzimuthalColumn};
+  for (const std::string& column : csv.columns())
+    if (const std::string meant = did_you_mean(column, known);
+        !meant.empty() && !std::ranges::count(kStateColumns, column))
+      csv.fail(fmt::format("no path has a column '{}'{}", shown(column), meant));
   PathTable table;
   // Without celerities the path chooses the rates itself (keyframe_path.h).
   const bool moving = csv.has(kRadialColumn) && csv.has(kAzimuthalColumn);

@@ -77,6 +77,16 @@ std::optional<double> turn_of_fall(const KerrHole& hole, double from, const Kerr
   return std::nullopt;
 }
 
+// Returns the smallest r above `low` from which orbits with that apoastron turn.
+double least_periastron(const KerrHole& hole, double low, double apoastron, double inclination) {
+  double high = apoastron;
+  for (int n = 0; n < 60; ++n) {
+    const double middle = (low + high) / 2;
+    (kerr_bound(hole, middle, apoastron, inclination) ? high : low) = middle;
+  }
+  return high;
+}
+
 // ---- engines and held velocities ----
 
 Range beyond_inner_horizon(const Stage& stage) {
@@ -247,9 +257,10 @@ std::optional<TimedTrajectory> read_spin_bound(const Item& item, const Stage& st
   const auto motion = kerr_bound(hole, *least, *most, inclination);
   if (!motion)
     return s.find("periastron")
-        ->fail(fmt::format("must be greater, got {}: with this apoastron and inclination no orbit "
-                           "turns there",
-                           as_written(*s.find("periastron"))));
+        ->fail(fmt::format(
+            "must be at least {:.6g} (units of M), got {}: nearer no orbit with this apoastron and "
+            "inclination turns",
+            least_periastron(hole, *least, *most, inclination), as_written(*s.find("periastron"))));
   Defaults defaults;
   defaults.tau = 0;
   return falling(s, stage, item, *least, kRightAngle, *motion, defaults);

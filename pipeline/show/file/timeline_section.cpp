@@ -251,6 +251,10 @@ class TimelineReader {
     Stage stage{show_.spacetime, axes_before(), duration,
                 nullptr,         &show_.bodies, segments_.empty() ? 0 : rain_time(joint_)};
     if (!segments_.empty()) stage.before = &segments_.back();
+    // Where the segment before is in error, nothing is known of what goes on with it.
+    const auto type = peek(*trajectory, "type");
+    if (type && is_word(*type, "continue") && !courses_.empty() && !courses_.back().moves)
+      return std::nullopt;
     auto motion = read_trajectory(*trajectory, stage, lookup_);
     // The readers have reported what is wrong.  In any case a segment without motion must not pass.
     if (!motion && item.problems->count() == reported)

@@ -261,9 +261,15 @@ std::string_view why_not(const Type& type, const Spacetime& spacetime) {
   return charged ? type.not_near_charge : std::string_view();
 }
 
-// Reports keys that only a hole that spins gives a meaning.  Returns true if there are none.
+// Reports keys that only a hole that spins gives a meaning, or only one that does not.  Returns true if
+// there are none.
 bool fits_spin(const Item& item, const Stage& stage) {
   bool fits = true;
+  if (const auto region = peek(item, "region"); region && stage.spacetime.is<SpinningHole>()) {
+    region->fail(
+        "is of holes without spin; about one that spins shows are in this universe, I and II");
+    fits = false;
+  }
   for (const char* key : {"latitude_deg", "inclination_deg", "retrograde", "dragged"})
     if (const auto given = peek(item, key); given && !stage.spacetime.is<SpinningHole>()) {
       given->fail("is of motion about a hole that spins; give black_hole.spin");

@@ -299,6 +299,11 @@ TEST(Bodies, ThatAreHiddenAreNotTold) {
   const auto left = [&](double column) {
     return PixelProbe(hidden, frame_state(hidden, 0), {column, 101}).left_by_bodies();
   };
+  const FrameState state = frame_state(hidden, 0);
+  const BodySight sight(state, hidden.effects, hidden.least_star_radius);
+  const auto reach = [&](const Body& body) { return sight.reach(body, *sight.image(body, 0)); };
+  EXPECT_NEAR(reach(hidden.bodies[1]), 0.1, 0.02);
+  EXPECT_EQ(reach(hidden.bodies[0]), 0);
   EXPECT_EQ(left(101), 0);
   EXPECT_EQ(left(120), 0);
   EXPECT_EQ(left(140), 1);

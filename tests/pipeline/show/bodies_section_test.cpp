@@ -63,6 +63,13 @@ TEST_F(Bodies, AreLitFromThePlaceThatTheyName) {
   expect_near(std::get<SkyDirection>(*show.bodies[3].lit_from).v, V3d(0, 0, 1));
 }
 
+TEST_F(Bodies, DoNotLightEachOther) {
+  const std::string told = complaint(
+      "bodies:\n  a: {r: 30, radius: 1, lit_from: b}\n  b: {r: 60, radius: 2, lit_from: a}\n");
+  for (const char* body : {"bodies.a is lit from 'b'", "bodies.b is lit from 'a'"})
+    EXPECT_NE(told.find(body), std::string::npos) << told;
+}
+
 TEST_F(Bodies, HaveGranulesAndRings) {
   const Show show = with(
       "bodies:\n  sun: {r: 60, radius: 2}\n  hot: {r: 60, radius: 2, temperature_k: 20000}\n"

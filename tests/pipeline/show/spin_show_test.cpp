@@ -179,12 +179,23 @@ TEST_F(SpinShow, WhatDoesNotExistIsNamed) {
   has(body("r: 3, radius: 1, rings: {inner: 1.5, outer: 3}"), "reach to 3 M from the body");
   has(body("trajectory: {type: static, r: 1.9}"), "within the ergosphere nothing rests");
   has(body("trajectory: {type: static, r: 1.5, dragged: true}, radius: 0.1"), "the horizon is at");
+  has(complaint_of("{type: static, r: 9, region: III}"), "region is of holes without spin");
+  has(complaint_of("{type: bound, periastron: 3, apoastron: 9, inclination_deg: 120}"),
+      "periastron must be at least 6.4138");
+  // What goes on from there is not another mistake.
+  const std::string first = complaint(
+      "black_hole: {mass_solar: 4, spin: 0.9}\ntimeline:\n"
+      "  - {duration_s: 1, trajectory: {type: bound, periastron: 3, apoastron: 9, inclination_deg: "
+      "120}}\n"
+      "  - {duration_s: 1, trajectory: {type: continue, rate_m_per_s: 10}}\n");
+  EXPECT_EQ(first.find("timeline[2]"), std::string::npos) << first;
   has(complaint_of("{type: static, r: 1.9}"),
       "must exceed 2 (units of M) at that latitude, got 1.9");
   has(complaint_of("{type: static, r: 1.4, dragged: true}"), "must exceed 1.43588989");
   has(complaint_of("{type: circular, r: 1.5}"), "must exceed 1.5578");
   has(complaint_of("{type: circular, r: 3.9, retrograde: true}"), "must exceed 3.9102");
-  has(complaint_of("{type: bound, periastron: 1.7, apoastron: 9}"), "periastron must be greater");
+  has(complaint_of("{type: bound, periastron: 1.7, apoastron: 9}"),
+      "periastron must be at least 1.82313");
   has(complaint_of("{type: bound, periastron: 7, apoastron: 6}"), "at least the periastron, 7");
   has(complaint_of("{type: bound, periastron: 7, apoastron: 2e6}"), "apoastron must be at most");
   has(complaint_of("{type: bound, eccentricity: 0.3, semilatus_rectum: 9}"),

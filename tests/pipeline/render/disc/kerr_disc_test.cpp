@@ -139,6 +139,25 @@ TEST_F(KerrDisc, IsSeenAlongExactRays) {
   EXPECT_GT(beside, 50);
 }
 
+// Roundings of the place, which is in the plane, do not make its own gas a sheet before the observer.
+TEST(KerrPlane, IsSeenEdgeOnFromWithinIt) {
+  int seen = 0;
+  for (const long double off : {-1e-16L, 0.0L, 1e-16L}) {
+    const KerrPlace at{{0.9999L, 0}, 1.2L, std::numbers::pi_v<long double> / 2 + off};
+    const KerrPlane plane(at, {static_cast<double>(at.hole.horizon()), 10}, 4);
+    for (const double eta : {-2.8, -2.0, -1.0, -0.3, 0.3, 1.0, 2.0, 2.8})
+      for (double delta = 0.05; delta < 3.1; delta += 0.05) {
+        if (KerrConstants(at, delta, eta).energy > -1e-3) continue;
+        const KerrPlane::Sight sight = plane.exact_sight(delta, eta);
+        ++seen;
+        if (sight.crosses[0]) {
+          EXPECT_GT(std::abs(sight.at[0].w.value * 1.2 - 1), 1e-6) << delta << ' ' << eta;
+        }
+      }
+  }
+  EXPECT_GT(seen, 100);
+}
+
 // All rings may lie between one row or column of nodes and the next.
 TEST(KerrPlane, IsSeenFromNextToIt) {
   constexpr double kLatitude = 0.05 * std::numbers::pi / 180, kInner = 2.32, kOuter = 20;
