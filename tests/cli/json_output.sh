@@ -150,7 +150,11 @@ for show, places in (('stars.yaml', ((24, 42), (32, 50), (38, 44))), ('still.yam
     for x, y in places:
         fact, text = shown(show, 0, x, y)
         stars = fact['stars']
-        assert len(stars) == len(re.findall('^star  ', text, re.M)) >= 1, (fact, text)
+        # The text has the brightest twelve, and how many more.
+        fainter = re.search('^stars +([0-9]+) fainter', text, re.M)
+        told = len(re.findall('^star  ', text, re.M))
+        assert 1 <= told == min(len(stars), 12), (fact, text)
+        assert int(fainter[1] if fainter else 0) == len(stars) - told, (fact, text)
         assert [s['seen_v'] for s in stars] == sorted(s['seen_v'] for s in stars)
         for star in stars[:2] + [s for s in stars if s['order'] > 0][:2]:
             orders.add(star['order'])
