@@ -18,13 +18,13 @@ class BodyCovers {
   double left_before(const CameraDirection& direction, double far) const;
 
  private:
-  // An image of a sphere, within `radius` (a chord) of its middle.
+  struct Piece {
+    CameraDirection direction;
+    double solid_angle;  // for the camera
+  };
   struct Cover {
     double far;
-    V3d middle;
-    double radius;
-    std::vector<V3d> directions;
-    std::vector<double> solid_angles;  // of the pieces, for the camera
+    std::vector<Piece> pieces;
   };
   std::vector<Cover> covers_;
   double sigma_;

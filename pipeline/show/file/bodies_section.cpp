@@ -354,13 +354,13 @@ std::vector<Body> read_bodies(const Section& show, const Show& to, Lookup& looku
     read_surface(s, to, names, lookup, bodies.back());
   }
   const std::vector<Body> all = bodies;
+  const auto lamp_of = [](auto& body) {
+    return body.lit_from ? std::get_if<std::shared_ptr<const Body>>(&*body.lit_from) : nullptr;
+  };
   for (Body& body : bodies)
-    if (auto* lamp =
-            body.lit_from ? std::get_if<std::shared_ptr<const Body>>(&*body.lit_from) : nullptr) {
+    if (auto* lamp = lamp_of(body)) {
       *lamp = std::make_shared<const Body>(*std::ranges::find(all, (*lamp)->name, &Body::name));
-      const auto* other = (*lamp)->lit_from
-                              ? std::get_if<std::shared_ptr<const Body>>(&*(*lamp)->lit_from)
-                              : nullptr;
+      const auto* other = lamp_of(**lamp);
       if (other && (*other)->name == body.name)
         names.at(body.name).fail(
             fmt::format("is lit from '{}', which is lit from it: one of them must shine by itself",
